@@ -1,0 +1,229 @@
+#include "core/cpu/fused_map.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/cpu/cell_bits.hpp"
+
+namespace gvom::cpu {
+
+namespace {
+
+constexpr float kNoHeight_m = std::numeric_limits<float>::infinity();
+
+Grid empty_grid(const MapConfig& map) {
+  return grid_around(map, Eigen::Vector3d::Zero());
+}
+
+std::int32_t brick_origin(const Grid& grid, int axis) {
+  return grid.origin[static_cast<std::size_t>(axis)] / kBrickEdge;
+}
+
+bool holds_brick(const Grid& grid, const Int3& brick) {
+  const Int3 n = grid.bricks();
+  for (std::size_t a = 0; a < 3; ++a) {
+    const std::int32_t b = brick[a] - grid.origin[a] / kBrickEdge;
+    if (b < 0 || b >= n[a]) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+FusedMap::FusedMap(const MapConfig& map, const WindowConfig& window, int min_hits)
+    : window_(window, empty_grid(map)),
+      grid_(empty_grid(map)),
+      min_hits_(min_hits),
+      words_((map.size_z + 63) / 64) {
+  const std::size_t bricks = grid_.brick_slots();
+  const std::size_t columns = static_cast<std::size_t>(map.size_xy) * static_cast<std::size_t>(map.size_xy);
+  hits_.resize(bricks * kBrickCells);
+  passes_.resize(bricks * kBrickCells);
+  min_height_m_.resize(bricks * kBrickCells, kNoHeight_m);
+  live_.resize(bricks);
+  hit_cells_.resize(bricks);
+  occupied_.resize(columns * static_cast<std::size_t>(words_));
+  free_.resize(columns * static_cast<std::size_t>(words_));
+  last_seen_ns_.resize(columns, kNeverSeen);
+}
+
+FusedView FusedMap::view() const {
+  const Int3& n = grid_.size;
+  return {n[0],
+          n[2],
+          words_,
+          {wrap(grid_.origin[0], n[0]), wrap(grid_.origin[1], n[1]), wrap(grid_.origin[2], n[2])},
+          hits_.data(),
+          passes_.data(),
+          min_height_m_.data(),
+          occupied_.data(),
+          free_.data(),
+          last_seen_ns_.data()};
+}
+
+std::uint32_t FusedMap::slot_of(const Int3& b) const {
+  const Int3 n = grid_.bricks();
+  return brick_slot(wrap(b[0], n[0]), wrap(b[1], n[1]), wrap(b[2], n[2]), n[0], n[1]);
+}
+
+std::size_t FusedMap::column_of(std::int32_t bx, std::int32_t by, int column) const {
+  const std::int32_t n = grid_.size[0];
+  const std::int32_t x = wrap(bx * kBrickEdge, n) + (column >> 3);
+  const std::int32_t y = wrap(by * kBrickEdge, n) + (column & 7);
+  return static_cast<std::size_t>(y) * static_cast<std::size_t>(n) + static_cast<std::size_t>(x);
+}
+
+AddResult FusedMap::add(const WindowMap& map) {
+  const bool first = window_.maps().empty();
+  const AddResult result = window_.add(map);
+  if (result != AddResult::added) return result;
+  Change change{&map, &window_.left(), grid_, false};
+  grid_.origin = window_.maps().front().view.grid.origin;
+  if (first) change.before.size = {0, 0, 0};  // nothing was there: every brick is new
+  change.moved_in_z = grid_.origin[2] != change.before.origin[2];
+  const Int3 n = grid_.bricks();
+  for (std::int32_t by = 0; by < n[1]; ++by)
+    for (std::int32_t bx = 0; bx < n[0]; ++bx)
+      update_brick_column(brick_origin(grid_, 0) + bx, brick_origin(grid_, 1) + by, change);
+  return result;
+}
+
+void FusedMap::update_brick_column(std::int32_t bx, std::int32_t by, const Change& change) {
+  const std::int32_t low = brick_origin(grid_, 2);
+  bool entered = change.moved_in_z;
+  for (std::int32_t bz = low; bz < low + grid_.bricks()[2]; ++bz) {
+    const Int3 brick{bx, by, bz};
+    const std::uint32_t slot = slot_of(brick);
+    const bool enters = !holds_brick(change.before, brick);
+    entered |= enters;
+    bool changed = enters || change.moved_in_z;
+    if (enters)
+      refill(brick, slot);
+    else
+      changed |= update_brick(brick, slot, change);
+    if (changed) rebuild_masks(brick, slot);
+  }
+  update_last_seen(bx, by, change, entered);
+}
+
+bool FusedMap::update_brick(const Int3& brick, std::uint32_t slot, const Change& change) {
+  bool changed = false;
+  const std::int32_t added = change.added->view.brick_at(brick);
+  if (added >= 0) {
+    add_brick(slot, change.added->view, added);
+    changed = true;
+  }
+  for (const WindowMap& left : *change.left) {
+    const std::int32_t gone = left.view.brick_at(brick);
+    if (gone < 0) continue;
+    subtract_brick(slot, left.view, gone, brick);
+    changed = true;
+  }
+  return changed;
+}
+
+void FusedMap::refill(const Int3& brick, std::uint32_t slot) {
+  if (live_[slot]) {
+    const std::size_t begin = std::size_t{slot} * kBrickCells;
+    std::fill_n(hits_.data() + begin, kBrickCells, 0);
+    std::fill_n(passes_.data() + begin, kBrickCells, 0);
+    std::fill_n(min_height_m_.data() + begin, kBrickCells, kNoHeight_m);
+    live_[slot] = 0;
+    hit_cells_[slot] = 0;
+  }
+  for (const WindowMap& map : window_.maps()) {
+    const std::int32_t index = map.view.brick_at(brick);
+    if (index >= 0) add_brick(slot, map.view, index);
+  }
+}
+
+void FusedMap::add_brick(std::uint32_t slot, const BrickMapView& map, std::int32_t brick) {
+  const std::int32_t* lookup = map.lookup + static_cast<std::size_t>(brick) * kBrickCells;
+  const std::size_t begin = std::size_t{slot} * kBrickCells;
+  live_[slot] = 1;
+  add_free_passes<1>(lookup, passes_.data() + begin);
+  for_each_cell(at_least(lookup, 0), [&](std::size_t cell) {
+    const VoxelRecord& record = map.records[lookup[cell]];
+    if (hits_[begin + cell] == 0) ++hit_cells_[slot];
+    hits_[begin + cell] += record.hits;
+    passes_[begin + cell] += record.passes;
+    min_height_m_[begin + cell] = std::min(min_height_m_[begin + cell], record.min_height_m);
+  });
+}
+
+void FusedMap::subtract_brick(std::uint32_t slot, const BrickMapView& map, std::int32_t brick,
+                              const Int3& world_brick) {
+  const std::int32_t* lookup = map.lookup + static_cast<std::size_t>(brick) * kBrickCells;
+  const std::size_t begin = std::size_t{slot} * kBrickCells;
+  add_free_passes<-1>(lookup, passes_.data() + begin);
+  for_each_cell(at_least(lookup, 0), [&](std::size_t cell) {
+    const VoxelRecord& record = map.records[lookup[cell]];
+    std::uint32_t& hits = hits_[begin + cell];
+    float& lowest_m = min_height_m_[begin + cell];
+    hits -= record.hits;
+    passes_[begin + cell] -= record.passes;
+    if (hits == 0) {
+      lowest_m = kNoHeight_m;
+      --hit_cells_[slot];
+    } else if (record.min_height_m == lowest_m) {
+      lowest_m = lowest_in_window(world_brick, static_cast<std::uint32_t>(cell), hits);
+    }
+  });
+}
+
+float FusedMap::lowest_in_window(const Int3& brick, std::uint32_t cell, std::uint32_t hits) const {
+  float lowest_m = kNoHeight_m;
+  for (const WindowMap& map : window_.maps()) {
+    const std::int32_t index = map.view.brick_at(brick);
+    if (index < 0) continue;
+    const std::int32_t record = map.view.lookup[static_cast<std::size_t>(index) * kBrickCells + cell];
+    if (record < 0) continue;
+    lowest_m = std::min(lowest_m, map.view.records[record].min_height_m);
+    hits -= map.view.records[record].hits;
+    if (hits == 0) break;  // all maps that hit this voxel were seen
+  }
+  return lowest_m;
+}
+
+void FusedMap::rebuild_masks(const Int3& brick, std::uint32_t slot) {
+  const std::size_t begin = std::size_t{slot} * kBrickCells;
+  CellBits occupied{};
+  CellBits free{};
+  if (live_[slot]) free = at_least(passes_.data() + begin, 1);
+  if (hit_cells_[slot] > 0) {
+    occupied = at_least(hits_.data() + begin, min_hits_);
+    const CellBits hit = at_least(hits_.data() + begin, 1);
+    for (std::size_t c = 0; c < free.size(); ++c)
+      free[c] = static_cast<std::uint8_t>((free[c] | hit[c]) & ~occupied[c]);
+  }
+  // A brick is eight bits of its columns' masks: byte z / 8 (little-endian, as all machines with CUDA are).
+  const std::size_t mask_bytes = static_cast<std::size_t>(words_) * sizeof(std::uint64_t);
+  const std::size_t byte = column_of(brick[0], brick[1], 0) * mask_bytes +
+                           static_cast<std::size_t>(brick[2] - brick_origin(grid_, 2));
+  auto* occupied_bytes = reinterpret_cast<std::uint8_t*>(occupied_.data()) + byte;
+  auto* free_bytes = reinterpret_cast<std::uint8_t*>(free_.data()) + byte;
+  unsigned any = 0;
+  for (std::size_t y = 0; y < kBrickEdge; ++y)
+    for (std::size_t x = 0; x < kBrickEdge; ++x) {
+      const std::size_t column = x * kBrickEdge + y;
+      const std::size_t place = (y * static_cast<std::size_t>(grid_.size[0]) + x) * mask_bytes;
+      occupied_bytes[place] = occupied[column];
+      free_bytes[place] = free[column];
+      any |= static_cast<unsigned>(occupied[column] | free[column]);
+    }
+  live_[slot] = any != 0;
+}
+
+void FusedMap::reset() {
+  window_.clear();
+  std::fill(hits_.begin(), hits_.end(), 0);
+  std::fill(passes_.begin(), passes_.end(), 0);
+  std::fill(min_height_m_.begin(), min_height_m_.end(), kNoHeight_m);
+  std::fill(live_.begin(), live_.end(), 0);
+  std::fill(hit_cells_.begin(), hit_cells_.end(), 0);
+  std::fill(occupied_.begin(), occupied_.end(), 0);
+  std::fill(free_.begin(), free_.end(), 0);
+  std::fill(last_seen_ns_.begin(), last_seen_ns_.end(), kNeverSeen);
+}
+
+}  // namespace gvom::cpu

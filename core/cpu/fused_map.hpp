@@ -1,0 +1,72 @@
+// The fused map (R7, R8) on the CPU, kept up to date by adding the map that came and subtracting those
+// that left. Counts are integers, so the result is that of summing the window afresh.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/brick_map.hpp"
+#include "core/config.hpp"
+#include "core/fused_view.hpp"
+#include "core/window.hpp"
+
+namespace gvom::cpu {
+
+class FusedMap {
+ public:
+  FusedMap(const MapConfig& map, const WindowConfig& window, int min_hits);
+
+  /// Fuses a map. Its memory must stay until the map is among `window().left()`.
+  /// A result other than `added` leaves everything as it was; the map is then not kept.
+  AddResult add(const WindowMap& map);
+  /// Empties window and map.
+  void reset();
+
+  [[nodiscard]] const Window& window() const { return window_; }
+  /// Origin and size; those of the map with the newest stamp (R7).
+  [[nodiscard]] const Grid& grid() const { return grid_; }
+  [[nodiscard]] FusedView view() const;
+
+  /// The fused voxels as a brick map (R6): the room it takes, and the writing of it.
+  [[nodiscard]] BrickMapShape shape() const;
+  void write(const BrickMapArrays& out) const;
+
+ private:
+  // What changes in a tick.
+  struct Change {
+    const WindowMap* added;
+    const std::vector<WindowMap>* left;
+    Grid before;
+    bool moved_in_z;
+  };
+
+  void update_brick_column(std::int32_t bx, std::int32_t by, const Change& change);
+  bool update_brick(const Int3& brick, std::uint32_t slot, const Change& change);
+  void refill(const Int3& brick, std::uint32_t slot);
+  void add_brick(std::uint32_t slot, const BrickMapView& map, std::int32_t brick);
+  void subtract_brick(std::uint32_t slot, const BrickMapView& map, std::int32_t brick,
+                      const Int3& world_brick);
+  [[nodiscard]] float lowest_in_window(const Int3& brick, std::uint32_t cell, std::uint32_t hits) const;
+  void rebuild_masks(const Int3& brick, std::uint32_t slot);
+  void update_last_seen(std::int32_t bx, std::int32_t by, const Change& change, bool all);
+  void refresh_last_seen(std::int32_t bx, std::int32_t by, std::uint64_t columns, std::int64_t newest_ns);
+  [[nodiscard]] std::uint64_t observed_columns(const BrickMapView& map, std::int32_t bx,
+                                               std::int32_t by) const;
+  [[nodiscard]] std::uint32_t slot_of(const Int3& world_brick) const;
+  [[nodiscard]] std::size_t column_of(std::int32_t bx, std::int32_t by, int column) const;
+
+  Window window_;
+  Grid grid_;
+  std::int32_t min_hits_;
+  std::int32_t words_;
+  std::vector<std::uint32_t> hits_;
+  std::vector<std::uint32_t> passes_;
+  std::vector<float> min_height_m_;
+  std::vector<std::uint8_t> live_;        // per brick: it has an observed voxel
+  std::vector<std::uint16_t> hit_cells_;  // per brick: voxels with hits
+  std::vector<std::uint64_t> occupied_;
+  std::vector<std::uint64_t> free_;
+  std::vector<std::int64_t> last_seen_ns_;
+};
+
+}  // namespace gvom::cpu

@@ -1,0 +1,44 @@
+// Counts the passes of rays (R5) in a dense grid of bricks, several voxels at a time.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/grid.hpp"
+
+namespace gvom::cpu {
+
+/// Pass counters of a whole grid, brick by brick, and which bricks have any. Index of a voxel's counter:
+/// brick slot * 512 + cell. One more brick takes what falls outside of the grid.
+class PassCounters {
+ public:
+  explicit PassCounters(const Grid& grid);
+
+  /// Adds a pass to every voxel of the grid that the segment goes through except its end's own voxel (R5).
+  /// @param from,to fixed coordinates relative to the grid's origin (core/ray.hpp)
+  void cast(const std::int64_t (&from)[3], const std::int64_t (&to)[3]);
+
+  /// Index of a voxel's counter; the voxel must be inside.
+  [[nodiscard]] std::uint32_t index(std::int32_t x, std::int32_t y, std::int32_t z) const {
+    return (brick_slot(x >> 3, y >> 3, z >> 3, bricks_[0], bricks_[1]) << 9) | cell_in_brick(x, y, z);
+  }
+  [[nodiscard]] bool inside(std::int32_t x, std::int32_t y, std::int32_t z) const {
+    return static_cast<std::uint32_t>(x) < static_cast<std::uint32_t>(size_[0]) &&
+           static_cast<std::uint32_t>(y) < static_cast<std::uint32_t>(size_[1]) &&
+           static_cast<std::uint32_t>(z) < static_cast<std::uint32_t>(size_[2]);
+  }
+
+  std::uint32_t* counters() { return counters_.data(); }
+  std::uint8_t* touched() { return touched_.data(); }
+
+ private:
+  void cast_exactly(const std::int64_t (&from)[3], const std::int64_t (&to)[3]);
+
+  Int3 size_;
+  Int3 bricks_;
+  std::vector<std::uint32_t> counters_;
+  std::vector<std::uint8_t> touched_;
+  std::vector<std::uint32_t> crossed_;  // counters of one axis' crossings of one ray
+};
+
+}  // namespace gvom::cpu

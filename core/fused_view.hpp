@@ -1,0 +1,51 @@
+// The fused map as the layers read it: dense bricks and column masks, addressed toroidally. A world
+// brick's place is its index modulo the grid, so the map moves without anything being shifted.
+#pragma once
+
+#include <cstdint>
+
+#include "core/grid.hpp"
+
+namespace gvom {
+
+/// `value` modulo `n`, in 0 .. n - 1 also for negative values.
+GVOM_HD inline std::int32_t wrap(std::int32_t value, std::int32_t n) {
+  const std::int32_t rest = value % n;
+  return rest < 0 ? rest + n : rest;
+}
+
+/// No map of the window observed the column.
+inline constexpr std::int64_t kNeverSeen = INT64_MIN;
+
+/// Pointers into the fused map. x, y, z are relative to the origin.
+struct FusedView {
+  std::int32_t n_xy;
+  std::int32_t n_z;
+  std::int32_t words;  ///< 64-bit words of a column's mask.
+  Int3 first;          ///< Toroidal place of the origin: origin modulo size, voxels.
+  const std::uint32_t* hits;
+  const std::uint32_t* passes;
+  const float* min_height_m;
+  const std::uint64_t* occupied;     ///< [column][word], bit z from the origin up: hits >= min_hits (R8).
+  const std::uint64_t* free;         ///< [column][word]: observed and not occupied (R8).
+  const std::int64_t* last_seen_ns;  ///< [column]: newest stamp that observed it, or kNeverSeen (R15).
+
+  GVOM_HD std::int32_t torus(std::int32_t i, int axis) const {
+    const std::int32_t n = axis == 2 ? n_z : n_xy;
+    const std::int32_t place = first[static_cast<std::size_t>(axis)] + i;
+    return place >= n ? place - n : place;
+  }
+  /// Index of a column in the masks and in `last_seen_ns`.
+  GVOM_HD std::size_t column(std::int32_t x, std::int32_t y) const {
+    return static_cast<std::size_t>(torus(y, 1)) * static_cast<std::size_t>(n_xy) +
+           static_cast<std::size_t>(torus(x, 0));
+  }
+  /// Index of a voxel in `hits`, `passes` and `min_height_m`.
+  GVOM_HD std::size_t cell(std::int32_t x, std::int32_t y, std::int32_t z) const {
+    const std::int32_t tx = torus(x, 0), ty = torus(y, 1), tz = torus(z, 2);
+    const std::int32_t n = n_xy / kBrickEdge;
+    return std::size_t{brick_slot(tx >> 3, ty >> 3, tz >> 3, n, n)} * kBrickCells + cell_in_brick(tx, ty, tz);
+  }
+};
+
+}  // namespace gvom

@@ -1,0 +1,73 @@
+// The plane through a column's neighbourhood (R12), for host and device.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "core/arctangent.hpp"
+#include "core/platform.hpp"
+
+namespace gvom {
+
+struct Plane {
+  float slope_x;    ///< m/m
+  float slope_y;    ///< m/m
+  float slope;      ///< rad
+  float roughness;  ///< m^2
+  bool steep;       ///< `slope >= threshold`
+};
+
+/// Sums over the defined heights around a column. Those of offsets are whole numbers of columns, so
+/// whether the points lie on one line is decided exactly.
+struct PlaneSums {
+  std::int32_t n, x, y, xx, xy, yy;
+  double z, xz, yz;
+};
+
+/// Adds the height `z_m` of the column (dx, dy) further on; an undefined one adds nothing.
+GVOM_HD inline void add_height(PlaneSums& s, std::int32_t dx, std::int32_t dy, float z_m) {
+  const double wide = static_cast<double>(z_m);
+  const std::int32_t one = wide == wide ? 1 : 0;
+  const double z = wide == wide ? wide : 0;
+  s.n += one, s.x += one * dx, s.y += one * dy;
+  s.xx += one * dx * dx, s.xy += one * dx * dy, s.yy += one * dy * dy;
+  s.z += z, s.xz += dx * z, s.yz += dy * z;
+}
+
+/// `z = a x + b y + c` with x and y in columns; undefined without three points that span a plane.
+struct PlaneFit {
+  double a, b, c;
+  bool defined;
+};
+
+/// Least squares (R12).
+GVOM_HD inline PlaneFit solve_plane(const PlaneSums& s) {
+  const double n = s.n, x = s.x, y = s.y;
+  const double cxx = n * s.xx - x * x, cxy = n * s.xy - x * y, cyy = n * s.yy - y * y;
+  const double determinant = cxx * cyy - cxy * cxy;  // whole numbers below 2^53: exact
+  const double cxz = n * s.xz - x * s.z;
+  const double cyz = n * s.yz - y * s.z;
+  const double a = (cyy * cxz - cxy * cyz) / determinant;
+  const double b = (cxx * cyz - cxy * cxz) / determinant;
+  const bool defined = (static_cast<int>(s.n >= 3) & static_cast<int>(determinant > 0)) != 0;
+  return {a, b, ((s.z - a * x) - b * y) / n, defined};
+}
+
+/// Squared vertical distance of a height from the plane; 0 of an undefined one.
+GVOM_HD inline double squared_residual(const PlaneFit& fit, std::int32_t dx, std::int32_t dy, float z_m) {
+  const double residual = static_cast<double>(z_m) - ((fit.a * dx + fit.b * dy) + fit.c);
+  const double square = residual * residual;
+  return z_m == z_m ? square : 0;
+}
+
+/// The layers of a fitted plane (R12).
+GVOM_HD inline Plane plane_layers(const PlaneFit& fit, std::int32_t n, double squares_m2, double resolution_m,
+                                  double threshold_rad) {
+  if (!fit.defined) return {NAN, NAN, NAN, NAN, false};
+  const double slope_x = fit.a / resolution_m, slope_y = fit.b / resolution_m;
+  const double slope = arctangent(std::sqrt(slope_x * slope_x + slope_y * slope_y));
+  return {static_cast<float>(slope_x), static_cast<float>(slope_y), static_cast<float>(slope),
+          static_cast<float>(squares_m2 / n), slope >= threshold_rad};
+}
+
+}  // namespace gvom

@@ -1,0 +1,36 @@
+// One turn of a lidar, as a decoder leaves it and the voxelizer takes it.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace gvom {
+
+/// A return in the sensor's frame, metres, with the index of its time in `Sweep::times_ns`.
+struct Return {
+  double x_m;
+  double y_m;
+  double z_m;
+  std::uint32_t time_index;
+};
+
+/// Returns that share a time (a column, a firing) share an entry of `times_ns`, so poses are
+/// interpolated once for each (R3). Vectors keep their capacity from sweep to sweep.
+struct Sweep {
+  std::vector<Return> returns;
+  std::vector<std::int64_t> times_ns;
+  std::int64_t stamp_ns = 0;  ///< The time of the last return (R1).
+  /// CLOCK_MONOTONIC when the last packet of the sweep was read; 0 where a replay has no such moment.
+  std::int64_t received_ns = 0;
+  bool complete = true;  ///< False if packets or columns of it are missing.
+
+  void clear() {
+    returns.clear();
+    times_ns.clear();
+    stamp_ns = 0;
+    received_ns = 0;
+    complete = true;
+  }
+};
+
+}  // namespace gvom
