@@ -1,0 +1,168 @@
+#include "ipc/brick_map.hpp"
+
+#include <cstring>
+#include <utility>
+#include <vector>
+
+#include "ipc/text.hpp"
+
+namespace gvom::ipc {
+namespace {
+
+template <typename T>
+Span<T> array_at(std::byte* base, std::size_t offset, std::size_t count) {
+  return {reinterpret_cast<T*>(base + offset), count};
+}
+
+template <typename T>
+Span<const T> array_at(const std::byte* base, std::size_t offset, std::size_t count) {
+  return {reinterpret_cast<const T*>(base + offset), count};
+}
+
+BrickMapLayout layout_of(const BrickMap& map) {
+  return brick_map_layout(map.brick_slots, map.brick_count, map.record_count);
+}
+
+std::size_t lookup_count(std::uint32_t brick_count) {
+  return brick_count * kBrickVoxels;
+}
+
+/// The bytes between the arrays would else carry an older message's.
+void zero_padding(std::byte* base, const BrickMap& map, const BrickMapLayout& layout) {
+  const auto zero = [base](std::size_t from, std::size_t to) { std::memset(base + from, 0, to - from); };
+  zero(layout.directory + map.brick_slots * sizeof(std::int32_t), layout.lookup);
+  zero(layout.lookup + lookup_count(map.brick_count) * sizeof(std::int32_t), layout.columns);
+  zero(layout.columns + map.brick_count * sizeof(std::uint64_t), layout.records);
+}
+
+Error broken(const std::string& what) {
+  return {ErrorKind::incompatible, "map refused: " + what};
+}
+
+Expected<void> check_directory(Span<const std::int32_t> directory, std::uint32_t brick_count) {
+  std::vector<bool> used(brick_count, false);
+  std::uint32_t bricks = 0;
+  for (const std::int32_t brick : directory) {
+    if (brick == -1) continue;
+    if (brick < 0 || static_cast<std::uint32_t>(brick) >= brick_count || used[brick]) {
+      return tl::unexpected(broken("brick " + std::to_string(brick) + " in the directory is not one of " +
+                                   std::to_string(brick_count) + ", or stands there twice"));
+    }
+    used[brick] = true;
+    ++bricks;
+  }
+  if (bricks == brick_count) return {};
+  return tl::unexpected(
+      broken(std::to_string(bricks) + " of " + std::to_string(brick_count) + " bricks are in the directory"));
+}
+
+Expected<void> check_lookup(Span<const std::int32_t> lookup, std::uint32_t record_count) {
+  for (const std::int32_t value : lookup) {
+    if (value >= 0 && static_cast<std::uint32_t>(value) >= record_count) {
+      return tl::unexpected(
+          broken("a voxel leads to record " + std::to_string(value) + " of " + std::to_string(record_count)));
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+Span<std::int32_t> BrickMapWriter::directory() const {
+  return array_at<std::int32_t>(loan_.data(), layout_.directory, header().brick_slots);
+}
+Span<std::int32_t> BrickMapWriter::lookup() const {
+  return array_at<std::int32_t>(loan_.data(), layout_.lookup, lookup_count(header().brick_count));
+}
+Span<std::uint64_t> BrickMapWriter::columns() const {
+  return array_at<std::uint64_t>(loan_.data(), layout_.columns, header().brick_count);
+}
+Span<VoxelRecord> BrickMapWriter::records() const {
+  return array_at<VoxelRecord>(loan_.data(), layout_.records, header().record_count);
+}
+
+BrickMapPublisher::BrickMapPublisher(OutPort port, std::string lidar, std::size_t capacity_bytes)
+    : port_(std::move(port)), lidar_(std::move(lidar)), capacity_bytes_(capacity_bytes) {}
+
+Expected<BrickMapPublisher> BrickMapPublisher::buffer_map(Runtime& runtime, const std::string& lidar,
+                                                          std::size_t capacity_bytes) {
+  const auto topic = buffer_map_topic(lidar);
+  if (!topic) return tl::unexpected(topic.error());
+  return OutPort::open(runtime, *topic).map([&](OutPort&& port) {
+    return BrickMapPublisher(std::move(port), lidar, capacity_bytes);
+  });
+}
+
+Expected<BrickMapPublisher> BrickMapPublisher::voxel_map(Runtime& runtime, std::size_t capacity_bytes) {
+  return OutPort::open(runtime, voxel_map_topic()).map([&](OutPort&& port) {
+    return BrickMapPublisher(std::move(port), "", capacity_bytes);
+  });
+}
+
+Expected<BrickMapWriter> BrickMapPublisher::loan(std::uint32_t brick_slots, std::uint32_t brick_count,
+                                                 std::uint32_t record_count) {
+  const BrickMapLayout layout = brick_map_layout(brick_slots, brick_count, record_count);
+  if (layout.bytes > capacity_bytes_) {
+    return tl::unexpected(Error{ErrorKind::too_large, "a map of " + std::to_string(layout.bytes) +
+                                                          " bytes is beyond the capacity of " +
+                                                          std::to_string(capacity_bytes_)});
+  }
+  // Always a chunk of the full capacity: a smaller loan would drain another topic's pool.
+  return port_.loan(capacity_bytes_).map([&](Loan&& loan) {
+    auto& map = *reinterpret_cast<BrickMap*>(loan.data());
+    std::memset(loan.data(), 0, layout.directory);
+    set_text(map.lidar, lidar_);
+    map.brick_slots = brick_slots;
+    map.brick_count = brick_count;
+    map.record_count = record_count;
+    zero_padding(loan.data(), map, layout);
+    return BrickMapWriter(std::move(loan), layout);
+  });
+}
+
+std::uint64_t BrickMapPublisher::publish(BrickMapWriter&& writer, std::int64_t stamp_ns,
+                                         std::uint64_t epoch) {
+  writer.header().mono_published_ns = monotonic_ns();
+  return port_.publish(std::move(writer.loan_), writer.layout_.bytes, stamp_ns, epoch);
+}
+
+BrickMapSample::BrickMapSample(Chunk chunk) : chunk_(std::move(chunk)), layout_(layout_of(header())) {}
+
+Span<const std::int32_t> BrickMapSample::directory() const {
+  return array_at<std::int32_t>(chunk_.data(), layout_.directory, header().brick_slots);
+}
+Span<const std::int32_t> BrickMapSample::lookup() const {
+  return array_at<std::int32_t>(chunk_.data(), layout_.lookup, lookup_count(header().brick_count));
+}
+Span<const std::uint64_t> BrickMapSample::columns() const {
+  return array_at<std::uint64_t>(chunk_.data(), layout_.columns, header().brick_count);
+}
+Span<const VoxelRecord> BrickMapSample::records() const {
+  return array_at<VoxelRecord>(chunk_.data(), layout_.records, header().record_count);
+}
+
+Expected<void> BrickMapSample::validate_deep() const {
+  return check_directory(directory(), header().brick_count).and_then([this] {
+    return check_lookup(lookup(), header().record_count);
+  });
+}
+
+Expected<BrickMapSubscriber> BrickMapSubscriber::buffer_map(Runtime& runtime, const std::string& lidar) {
+  const auto topic = buffer_map_topic(lidar);
+  if (!topic) return tl::unexpected(topic.error());
+  return InPort::open(runtime, *topic).map([](InPort&& port) { return BrickMapSubscriber(std::move(port)); });
+}
+
+Expected<BrickMapSubscriber> BrickMapSubscriber::voxel_map(Runtime& runtime) {
+  return InPort::open(runtime, voxel_map_topic()).map([](InPort&& port) {
+    return BrickMapSubscriber(std::move(port));
+  });
+}
+
+std::optional<BrickMapSample> BrickMapSubscriber::take() {
+  auto chunk = port_.take();
+  if (!chunk) return std::nullopt;
+  return BrickMapSample(std::move(*chunk));
+}
+
+}  // namespace gvom::ipc

@@ -1,0 +1,187 @@
+// What travels between the processes: fixed-layout structs without pointers. Each starts with a
+// MessageHeader; a message whose type, version or size is not the reader's own is refused, not read.
+// Times named *_ns without "mono" are the sensors' clock; mono_*_ns are CLOCK_MONOTONIC of this machine.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+namespace gvom::ipc {
+
+inline constexpr std::uint32_t kMagic = 0x4D4F5647;  // "GVOM"
+inline constexpr std::size_t kNameLength = 32;       // with the terminating zero
+inline constexpr int kMaxLidars = 16;
+inline constexpr std::size_t kArrayAlignment = 64;  // of every array behind a header
+
+enum class MessageType : std::uint16_t { odometry = 1, buffer_map, layers, voxel_map, health, progress };
+
+struct MessageHeader {
+  std::uint32_t magic;
+  std::uint16_t type;      // MessageType
+  std::uint16_t version;   // of the message's layout, see `kVersion` in each struct
+  std::uint64_t size;      // header and arrays, bytes
+  std::uint64_t sequence;  // counts the publisher's messages of this type from 1: a gap is a loss
+  std::int64_t stamp_ns;   // the data's time
+  std::uint64_t epoch;     // raised when the odometry's clock starts again (a looped replay); windows reset
+};
+
+/// Topic "odometry": T_odom_base at `header.stamp_ns`.
+struct Odometry {
+  static constexpr MessageType kType = MessageType::odometry;
+  static constexpr std::uint16_t kVersion = 1;
+  enum Flags : std::uint32_t {
+    kLossless = 1,     // the replay waits for its readers; they wait for theirs, nothing may be dropped
+    kEndOfStream = 2,  // nothing follows in this epoch; the pose repeats the last one
+  };
+  MessageHeader header;
+  double position_m[3];
+  double orientation_xyzw[4];  // unit quaternion
+  std::uint32_t flags;
+  std::uint32_t reserved;
+};
+
+/// A data record of an occupied voxel (R6).
+struct VoxelRecord {
+  std::uint32_t hits;
+  std::uint32_t passes;
+  float min_height_m;
+};
+
+/// Voxels of a grid in bricks of 8 x 8 x 8 (R6). The arrays behind it, each aligned to 64 bytes, in this
+/// order:
+///   int32  directory[brick_slots]    brick's index or -1 (untouched); slot = (bz * ny_b + by) * nx_b + bx
+///   int32  lookup[brick_count * 512] per voxel: record index, or -1 - passes; cell = (x * 8 + y) * 8 + z
+///   uint64 columns[brick_count]      bit x * 8 + y: some voxel of that column of the brick was observed
+///   VoxelRecord records[record_count]
+/// with nx_b = size_voxels[0] / 8 and so on. Topic "buffer_map" (one sweep of one lidar) and "voxel_map"
+/// (the fused map: counts summed over the window).
+struct BrickMap {
+  static constexpr std::uint16_t kVersion = 1;
+  MessageHeader header;
+  char lidar[kNameLength];        // empty in a voxel map
+  std::int32_t origin_voxels[3];  // world voxel of cell (0, 0, 0), multiples of 8 (R1)
+  std::int32_t size_voxels[3];
+  double resolution_m[3];
+  double base_position_m[3];  // base_link in odom at the stamp
+  double base_orientation_xyzw[4];
+  std::uint32_t brick_slots;
+  std::uint32_t brick_count;
+  std::uint32_t record_count;
+  std::uint32_t complete;            // 0: packets of the sweep are missing
+  std::uint64_t returns;             // that became hits or rays
+  std::uint64_t dropped_not_finite;  // returns dropped by the filter (R2), this sweep
+  std::uint64_t dropped_too_near;
+  std::uint64_t dropped_too_far;
+  std::uint64_t dropped_body;
+  std::int64_t mono_received_ns;  // last packet read
+  std::int64_t mono_mapped_ns;    // odometry there, mapping began
+  std::int64_t mono_published_ns;
+};
+
+enum class LayerId : std::uint32_t {
+  height,
+  inferred_height,
+  slope_x,
+  slope_y,
+  slope,
+  roughness,
+  obstacle_density,
+  negative_delta,
+  clearance,
+  last_seen,
+  flags,
+  visibility,
+  cost,
+};
+inline constexpr int kFloatLayers = 10;  // height .. last_seen: float32; the rest uint8
+inline constexpr int kLayers = 13;
+
+enum ColumnFlags : std::uint8_t { kHard = 1, kSoft = 2, kNegative = 4, kSteep = 8, kAssumed = 16 };
+enum class Visibility : std::uint8_t { unobserved = 0, free_only = 1, ground_assumed = 2, ground_seen = 3 };
+
+/// What the window holds of one lidar.
+struct LidarStatus {
+  char name[kNameLength];
+  std::int64_t newest_stamp_ns;  // 0: none came yet
+  std::uint32_t maps_in_window;
+  std::uint32_t missing;  // 1: it has no map in the window, though it is one of the vehicle's lidars
+  std::uint64_t maps_received;
+  std::uint64_t maps_lost;  // gaps in its sequence
+};
+
+/// Topic "layers": the header, then 13 arrays of n_xy * n_xy values indexed [y][x], in the order of
+/// LayerId, each aligned to 64 bytes. Unknown is NaN in float layers (R9..R16).
+struct Layers {
+  static constexpr MessageType kType = MessageType::layers;
+  static constexpr std::uint16_t kVersion = 1;
+  MessageHeader header;
+  std::int32_t origin_voxels[3];  // world voxel of column (0, 0) and of the grid's floor
+  std::int32_t size_voxels[3];
+  double resolution_m[3];
+  double base_position_m[3];  // base_link in odom at the stamp
+  double base_orientation_xyzw[4];
+  std::uint32_t maps_in_window;
+  std::uint32_t lidar_count;
+  LidarStatus lidars[kMaxLidars];
+  std::int64_t mono_received_ns;  // stage times of the newest map in it
+  std::int64_t mono_mapped_ns;
+  std::int64_t mono_map_published_ns;
+  std::int64_t mono_fused_ns;
+  std::int64_t mono_published_ns;
+};
+
+/// Topic "progress": what a reader has finished, so that a lossless replay can wait for it.
+/// The header's epoch is that of the odometry it speaks of, 0 before the first: numbers of another epoch are
+/// stale.
+struct Progress {
+  static constexpr MessageType kType = MessageType::progress;
+  static constexpr std::uint16_t kVersion = 1;
+  MessageHeader header;             // stamp_ns: of the data that was finished
+  char reader[kNameLength];         // "fusion" or a lidar's name
+  std::uint64_t odometry_sequence;  // ingest: every odometry up to this one was used, its sweeps published
+  std::uint64_t maps_published;     // ingest: buffer maps published so far
+  std::uint32_t lidar_count;        // fusion: per lidar, how many maps were taken (fused or refused)
+  std::uint32_t reserved;
+  struct Taken {
+    char lidar[kNameLength];
+    std::uint64_t sequence;  // highest BufferMap sequence taken
+  } taken[kMaxLidars];
+};
+
+enum class HealthState : std::uint32_t { starting = 0, ok = 1, degraded = 2, failed = 3, stopping = 4 };
+
+/// Topic "health", at 1 Hz from every process.
+struct Health {
+  static constexpr MessageType kType = MessageType::health;
+  static constexpr std::uint16_t kVersion = 1;
+  static constexpr int kMaxCounters = 40;
+  static constexpr int kMaxStages = 8;
+  MessageHeader header;
+  char process[2 * kNameLength];  // runtime name, e.g. "gvom-ingest-top"
+  std::uint32_t state;            // HealthState
+  std::uint32_t pid;
+  char reason[160];  // why it is not ok, in words
+  char backend[32];  // "cpu" or what a GPU back end calls itself; empty where there is none
+  double rate_hz;    // of its product over the last second
+  std::int64_t mono_ns;
+  struct Counter {
+    char name[kNameLength];
+    std::uint64_t value;
+  } counters[kMaxCounters];
+  struct Stage {  // time per sweep or tick since the last message
+    char name[kNameLength];
+    double p50_ms, p99_ms, max_ms;
+  } stages[kMaxStages];
+  std::uint32_t counter_count;
+  std::uint32_t stage_count;
+};
+
+static_assert(std::is_trivially_copyable_v<Odometry> && std::is_standard_layout_v<Odometry>);
+static_assert(std::is_trivially_copyable_v<BrickMap> && std::is_standard_layout_v<BrickMap>);
+static_assert(std::is_trivially_copyable_v<Layers> && std::is_standard_layout_v<Layers>);
+static_assert(std::is_trivially_copyable_v<Progress> && std::is_standard_layout_v<Progress>);
+static_assert(std::is_trivially_copyable_v<Health> && std::is_standard_layout_v<Health>);
+static_assert(sizeof(VoxelRecord) == 12);
+
+}  // namespace gvom::ipc

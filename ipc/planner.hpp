@@ -1,0 +1,46 @@
+// All that a planner needs: join the bus, get the newest layers, give odometry. See examples/planner.cpp.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "ipc/fixed.hpp"
+#include "ipc/layers.hpp"
+#include "ipc/waiter.hpp"
+
+namespace gvom::ipc {
+
+/// Use it and its samples in one thread. Hold at most two samples: the pools are made for that.
+class PlannerClient {
+ public:
+  /// `name`: this process on the bus, unique. Errors as Runtime::connect.
+  static Expected<PlannerClient> connect(const std::string& name,
+                                         std::chrono::milliseconds timeout = std::chrono::seconds(10));
+
+  /// The newest layers that were not handed out yet; waits for them. Errors: timeout (nothing new; the
+  /// message says so), unavailable (the broker is gone: leave with _exit(75) and be started again).
+  Expected<LayersSample> newest_layers(std::chrono::milliseconds timeout);
+
+  /// Received, lost in gaps, refused and why.
+  [[nodiscard]] const InCounters& counters() const { return layers_.counters(); }
+  std::optional<std::string> new_refusal() { return layers_.new_refusal(); }
+
+  /// T_odom_base at `stamp_ns` of the sensors' clock, where the planner's vehicle is the source of odometry.
+  Expected<std::uint64_t> publish_odometry(const Odometry& odometry, std::int64_t stamp_ns,
+                                           std::uint64_t epoch = 0);
+
+  /// Makes newest_layers return early with timeout; from any thread.
+  void wake() { waiter_.wake(); }
+  Runtime& runtime() { return runtime_; }
+
+ private:
+  PlannerClient(Runtime runtime, LayersSubscriber layers, Waiter waiter);
+  Runtime runtime_;
+  LayersSubscriber layers_;
+  Waiter waiter_;
+  std::optional<Publisher<Odometry>> odometry_;  // opened with the first pose
+};
+
+}  // namespace gvom::ipc

@@ -1,0 +1,23 @@
+// The char fields of messages: always terminated when written, never trusted to be when read.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <string_view>
+
+namespace gvom::ipc {
+
+/// Copies as much of `text` as fits before the terminating zero, and zeros the rest.
+template <std::size_t N>
+void set_text(char (&field)[N], std::string_view text) {
+  std::memset(field, 0, N);
+  std::memcpy(field, text.data(), std::min(text.size(), N - 1));
+}
+
+template <std::size_t N>
+std::string_view text_of(const char (&field)[N]) {
+  return {field, ::strnlen(field, N)};
+}
+
+}  // namespace gvom::ipc

@@ -1,0 +1,53 @@
+#include "services/common/bus/join.hpp"
+
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+namespace gvom::services {
+
+using namespace std::chrono_literals;
+
+ExitCode exit_code_of(const ipc::Error& error) {
+  switch (error.kind) {
+    case ipc::ErrorKind::unavailable:
+    case ipc::ErrorKind::denied:
+    case ipc::ErrorKind::no_space:
+      return ExitCode::unavailable;
+    case ipc::ErrorKind::in_use:
+    case ipc::ErrorKind::exhausted:
+    case ipc::ErrorKind::timeout:
+      return ExitCode::try_again;
+    case ipc::ErrorKind::too_large:
+      return ExitCode::configuration;
+    case ipc::ErrorKind::bad_name:
+    case ipc::ErrorKind::incompatible:
+      break;
+  }
+  return ExitCode::internal;
+}
+
+tl::expected<ipc::Runtime, ExitCode> join_bus(const std::string& name, const Lifecycle& lifecycle,
+                                              std::chrono::milliseconds patience) {
+  const auto deadline = std::chrono::steady_clock::now() + patience;
+  while (!lifecycle.stopping() && !ipc::broker_answers() && std::chrono::steady_clock::now() < deadline) {
+    std::this_thread::sleep_for(20ms);
+  }
+  if (lifecycle.stopping()) return tl::make_unexpected(ExitCode::ok);
+  auto runtime =
+      ipc::Runtime::connect(name, 0ms, [](const std::string& line) { spdlog::warn("bus: {}", line); });
+  if (runtime) return std::move(*runtime);
+  spdlog::error("{}", runtime.error().message);
+  return tl::make_unexpected(exit_code_of(runtime.error()));
+}
+
+void BrokerWatch::check() {
+  const auto now = std::chrono::steady_clock::now();
+  if (now < next_) return;
+  next_ = now + 100ms;
+  if (runtime_.broker_alive()) return;
+  spdlog::critical("the broker is gone: leaving, to be started again");
+  spdlog::shutdown();
+  _exit(to_int(ExitCode::try_again));
+}
+
+}  // namespace gvom::services

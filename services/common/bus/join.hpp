@@ -1,0 +1,36 @@
+// Joining the bus and leaving it for good, the same way in every service. Library gvom_services_bus.
+#pragma once
+
+#include <chrono>
+#include <string>
+
+#include <tl/expected.hpp>
+
+#include "ipc/error.hpp"
+#include "ipc/runtime.hpp"
+#include "services/common/exit_code.hpp"
+#include "services/common/lifecycle.hpp"
+
+namespace gvom::services {
+
+/// The code to end with when the bus said no.
+ExitCode exit_code_of(const ipc::Error& error);
+
+/// Waits for the broker up to `patience` (a stop ends the wait at once) and joins as `name`. What goes wrong
+/// is logged; then the code to exit with, `ok` for a stop.
+tl::expected<ipc::Runtime, ExitCode> join_bus(const std::string& name, const Lifecycle& lifecycle,
+                                              std::chrono::milliseconds patience = std::chrono::seconds(10));
+
+/// Asks ten times a second at most whether the broker is still there. If not, ends the process with 75 and
+/// without destructors, which can hang: the supervisor starts it anew.
+class BrokerWatch {
+ public:
+  explicit BrokerWatch(const ipc::Runtime& runtime) : runtime_(runtime) {}
+  void check();
+
+ private:
+  const ipc::Runtime& runtime_;
+  std::chrono::steady_clock::time_point next_{};
+};
+
+}  // namespace gvom::services

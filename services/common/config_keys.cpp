@@ -1,0 +1,100 @@
+#include "services/common/config_keys.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <set>
+#include <vector>
+
+namespace gvom::services {
+
+namespace {
+
+const std::string kLidars = "lidars";
+const std::string kLidarsDot = kLidars + ".";
+
+bool starts_with(const std::string& text, const std::string& prefix) {
+  return text.compare(0, prefix.size(), prefix) == 0;
+}
+
+template <typename Config>
+std::optional<Target> find_row(const std::vector<Row<Config>>& rows, const std::string& key, Config& config) {
+  const auto row = std::find_if(rows.begin(), rows.end(), [&](const auto& r) { return key == r.info.key; });
+  if (row == rows.end()) return std::nullopt;
+  return Target{&row->info, row->field(config)};
+}
+
+template <typename Config>
+bool is_prefix(const std::vector<Row<Config>>& rows, const std::string& prefix) {
+  return std::any_of(rows.begin(), rows.end(),
+                     [&](const auto& row) { return starts_with(row.info.key, prefix); });
+}
+
+/// Insertions, deletions and replacements that make `b` of `a` (Levenshtein).
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+template <typename Config>
+void add_keys(const std::vector<Row<Config>>& rows, const std::string& prefix, std::set<std::string>& keys) {
+  for (const auto& row : rows) {
+    const std::string key = row.info.key;
+    keys.insert(prefix + key);
+    const std::size_t dot = key.rfind('.');
+    if (dot != std::string::npos) keys.insert(prefix + key.substr(0, dot));
+  }
+}
+
+}  // namespace
+
+std::optional<LidarKey> split_lidar_key(const std::string& key) {
+  if (!starts_with(key, kLidarsDot)) return std::nullopt;
+  const std::string after = key.substr(kLidarsDot.size());
+  const std::size_t dot = after.find('.');
+  if (dot == std::string::npos) return LidarKey{after, ""};
+  return LidarKey{after.substr(0, dot), after.substr(dot + 1)};
+}
+
+std::optional<Target> find_target(VehicleConfig& config, const std::string& key) {
+  const auto lidar_key = split_lidar_key(key);
+  if (!lidar_key) return find_row(vehicle_rows(), key, config);
+  LidarConfig* lidar = lidar_named(config, lidar_key->name);
+  return lidar != nullptr ? find_row(lidar_rows(), lidar_key->rest, *lidar) : std::nullopt;
+}
+
+bool is_section(const std::string& key) {
+  if (key.empty() || key == kLidars) return true;
+  const auto lidar_key = split_lidar_key(key);
+  if (!lidar_key) return is_prefix(vehicle_rows(), key + ".");
+  return lidar_key->rest.empty() || is_prefix(lidar_rows(), lidar_key->rest + ".");
+}
+
+std::string nearest_key(const std::string& key) {
+  std::set<std::string> keys = {kLidars};
+  add_keys(vehicle_rows(), "", keys);
+  if (const auto lidar_key = split_lidar_key(key))
+    add_keys(lidar_rows(), kLidarsDot + lidar_key->name + ".", keys);
+  const auto distance = [&](const std::string& candidate) { return edit_distance(key, candidate); };
+  const auto nearest = std::min_element(
+      keys.begin(), keys.end(), [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
+  const std::size_t leaf_length = key.size() - (key.rfind('.') + 1);  // npos + 1 is 0
+  return distance(*nearest) <= std::max<std::size_t>(2, leaf_length / 3) ? *nearest : "";
+}
+
+LidarConfig* lidar_named(VehicleConfig& config, const std::string& name) {
+  const auto found = std::find_if(config.lidars.begin(), config.lidars.end(),
+                                  [&](const LidarConfig& lidar) { return lidar.name == name; });
+  return found != config.lidars.end() ? &*found : nullptr;
+}
+
+}  // namespace gvom::services

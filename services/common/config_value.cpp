@@ -1,0 +1,167 @@
+#include "services/common/config_value.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace gvom::services {
+
+namespace {
+
+std::string number_text(double value) {
+  char buffer[32];
+  const auto end = std::to_chars(buffer, buffer + sizeof(buffer), value).ptr;
+  return {buffer, end};
+}
+
+std::string found_text(const YAML::Node& node) {
+  switch (node.Type()) {
+    case YAML::NodeType::Scalar:
+      return node.Tag() == "!" ? "the string '" + node.Scalar() + "'" : "'" + node.Scalar() + "'";
+    case YAML::NodeType::Sequence:
+      return "a list of " + std::to_string(node.size());
+    case YAML::NodeType::Map:
+      return "a mapping";
+    default:
+      return "nothing";
+  }
+}
+
+/// A plain scalar that is a number of type T and nothing else; YAML's leading '+' is allowed.
+template <typename T>
+std::optional<T> parse_number(const YAML::Node& node) {
+  if (!node.IsScalar() || node.Tag() != "?") return std::nullopt;
+  const std::string& text = node.Scalar();
+  const char* begin = text.data();
+  const char* const end = begin + text.size();
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') ++begin;
+  T value{};
+  const auto result = std::from_chars(begin, end, value);
+  if (result.ec != std::errc{} || result.ptr != end) return std::nullopt;
+  return value;
+}
+
+bool in_range(const RowInfo& row, double value) {
+  const bool above = row.rule == Rule::above_min ? value > row.min : value >= row.min;
+  return above && value <= row.max;  // false for NaN
+}
+
+bool assign_number(const RowInfo& row, const YAML::Node& node, double& out) {
+  const auto value = parse_number<double>(node);
+  if (!value || !in_range(row, *value)) return false;
+  out = *value;
+  return true;
+}
+
+bool assign_integer(const RowInfo& row, const YAML::Node& node, int& out) {
+  const auto value = parse_number<int>(node);
+  if (!value || !in_range(row, *value)) return false;
+  if (row.rule == Rule::multiple_of_8 && *value % 8 != 0) return false;
+  if (row.rule == Rule::odd && *value % 2 == 0) return false;
+  out = *value;
+  return true;
+}
+
+bool is_one_line(const std::string& text) {
+  return std::none_of(text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; });
+}
+
+bool assign_text(const RowInfo& row, const YAML::Node& node, std::string& out) {
+  if (!node.IsScalar()) return false;
+  const bool valid = row.rule == Rule::identifier ? is_identifier(node.Scalar()) : is_one_line(node.Scalar());
+  if (valid) out = node.Scalar();
+  return valid;
+}
+
+bool assign_corner(const RowInfo& row, const YAML::Node& node, const BoxCorner& out) {
+  if (!node.IsSequence() || node.size() != 3) return false;
+  Eigen::Vector3d corner;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!assign_number(row, node[axis], corner[axis])) return false;
+  }
+  if (!out.box->has_value()) {
+    const Eigen::Vector3d unset = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+    out.box->emplace(Box{unset, unset});
+  }
+  (**out.box).*out.corner = corner;
+  return true;
+}
+
+struct Assign {
+  const RowInfo& row;
+  const YAML::Node& node;
+  bool operator()(double* out) const { return assign_number(row, node, *out); }
+  bool operator()(int* out) const { return assign_integer(row, node, *out); }
+  bool operator()(std::string* out) const { return assign_text(row, node, *out); }
+  bool operator()(const BoxCorner& out) const { return assign_corner(row, node, out); }
+};
+
+/// Single quotes take every character of one line as it is, but themselves.
+std::string quoted(const std::string& text) {
+  std::string result = "'";
+  for (const char c : text) {
+    result += c;
+    if (c == '\'') result += c;
+  }
+  return result + "'";
+}
+
+struct ValueText {
+  std::string operator()(const double* value) const { return number_text(*value); }
+  std::string operator()(const int* value) const { return std::to_string(*value); }
+  std::string operator()(const std::string* value) const { return quoted(*value); }
+  std::string operator()(const BoxCorner& value) const {
+    if (!value.box->has_value()) return {};
+    const Eigen::Vector3d& corner = (**value.box).*value.corner;
+    return "[" + number_text(corner.x()) + ", " + number_text(corner.y()) + ", " + number_text(corner.z()) +
+           "]";
+  }
+};
+
+}  // namespace
+
+tl::expected<void, std::string> assign(const RowInfo& row, const YAML::Node& node, const Field& field) {
+  if (std::visit(Assign{row, node}, field)) return {};
+  return tl::make_unexpected("expected " + expected_text(row, field) + ", found " + found_text(node));
+}
+
+std::string range_text(const RowInfo& row) {
+  const std::string bounds = number_text(row.min) + " .. " + number_text(row.max);
+  switch (row.rule) {
+    case Rule::range:
+    case Rule::corner:
+      return bounds;
+    case Rule::above_min:
+      return "above " + bounds;
+    case Rule::multiple_of_8:
+      return bounds + ", a multiple of 8";
+    case Rule::odd:
+      return bounds + ", odd";
+    case Rule::identifier:
+      return "[a-z0-9_], 1 to 31 characters";
+    case Rule::text:
+      break;
+  }
+  return {};
+}
+
+std::string expected_text(const RowInfo& row, const Field& field) {
+  switch (row.rule) {
+    case Rule::identifier:
+      return "a name of " + range_text(row);
+    case Rule::text:
+      return "one line of text";
+    case Rule::corner:
+      return "a list [x, y, z] of numbers in " + range_text(row);
+    default:
+      return (std::holds_alternative<int*>(field) ? "a whole number in " : "a number in ") + range_text(row);
+  }
+}
+
+std::string value_text(const Field& field) {
+  return std::visit(ValueText{}, field);
+}
+
+}  // namespace gvom::services

@@ -1,0 +1,61 @@
+// Start, stop and what systemd hears of them.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <thread>
+
+#include <signal.h>
+
+namespace gvom::services {
+
+/// Takes SIGINT and SIGTERM in a thread of its own; no other thread is ever interrupted (more than five
+/// EINTRs in a wait are fatal to iceoryx). Make one first thing in main, before anything starts a thread,
+/// so that every thread inherits the blocked signals. A second signal ends the process at once (128 +
+/// signal).
+class Lifecycle {
+ public:
+  Lifecycle();
+  ~Lifecycle();
+  Lifecycle(const Lifecycle&) = delete;
+  Lifecycle& operator=(const Lifecycle&) = delete;
+
+  [[nodiscard]] bool stopping() const { return stopping_.load(std::memory_order_relaxed); }
+
+  /// `callback` runs once, in the signal thread, when a stop is asked for (at once if it was already): wakes
+  /// what the working loop waits on. Hand over an empty one before what it touches goes away; when
+  /// on_stop returns, the old one is not running.
+  void on_stop(std::function<void()> callback);
+
+  /// As if a SIGTERM had come.
+  void request_stop();
+
+  /// Sleeps until the deadline (absolute, so a paced loop does not drift). False if a stop cut it short.
+  bool sleep_until(std::chrono::steady_clock::time_point deadline);
+
+ private:
+  void take_signals();
+
+  sigset_t signals_;
+  sigset_t previous_mask_;
+  std::atomic<bool> stopping_{false};
+  std::atomic<bool> finished_{false};
+  std::mutex mutex_;
+  std::condition_variable stop_asked_;
+  std::function<void()> callback_;
+  std::thread thread_;
+};
+
+// To systemd, by sd_notify; without NOTIFY_SOCKET they do nothing.
+void notify_ready();
+void notify_status(const char* text);  ///< One line for `systemctl status`.
+void notify_stopping();
+
+/// Feeds the watchdog. Call it from the working loop itself, as often as you like: it sends at most every 100
+/// ms.
+void notify_watchdog();
+
+}  // namespace gvom::services

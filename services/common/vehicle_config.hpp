@@ -1,0 +1,60 @@
+// One vehicle: what its YAML file says, as structs. Defaults live here and in core/config.hpp only.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/config.hpp"
+
+namespace gvom::services {
+
+/// `T_base_sensor` as the file says it: R = Rz(yaw) Ry(pitch) Rx(roll), so `p_base = R p_sensor + (x, y, z)`.
+/// Kept beside the transform that is made of it, so that it prints as it was read.
+struct Extrinsic {
+  double x_m = 0.0;  ///< Each -100 .. 100.
+  double y_m = 0.0;
+  double z_m = 0.0;
+  double roll_rad = 0.0;  ///< Each -6.2832 .. 6.2832.
+  double pitch_rad = 0.0;
+  double yaw_rad = 0.0;
+};
+
+/// One lidar, `lidars.NAME.*`.
+struct LidarConfig {
+  std::string name;        ///< The key under `lidars`: [a-z0-9_], at most 31 characters.
+  std::string source;      ///< Source URI, e.g. `ouster-udp:7502?meta=FILE`; may be empty (given by --set).
+  Extrinsic extrinsic;     ///< T_base_sensor.{x,y,z,roll,pitch,yaw}, all six required.
+  LidarGeometry geometry;  ///< T_base_sensor (made of `extrinsic`), min_range_m, max_range_m.
+  double min_sweep_fraction = 0.5;  ///< Sweeps with less of their columns are dropped, 0 .. 1.
+  int max_returns = 262144;         ///< Room for one sweep; more are dropped and counted, 1 .. 4194304.
+};
+
+/// `odometry.*`.
+struct OdometryConfig {
+  std::string source;      ///< `tum:FILE`; may be empty (given on the command line).
+  double timeout_s = 1.0;  ///< A sweep waits this long for the odometry that brackets it (R3), 0.01 .. 60.
+};
+
+/// `fusion.*`.
+struct FusionConfig {
+  double rate_hz = 0.0;  ///< Layers at this rate; 0: on each map, 0 .. 100.
+  double voxel_rate_hz =
+      2.0;  ///< VoxelMap at most this often, and only if somebody reads it; 0: never, 0 .. 100.
+};
+
+/// `ipc.*`: sizes of the shared-memory pools.
+struct IpcConfig {
+  int max_planners = 4;  ///< Processes that read Layers or VoxelMap at the same time, 1 .. 32.
+};
+
+struct VehicleConfig {
+  std::string path;     ///< The file this came from.
+  std::string name;     ///< `name`: [a-z0-9_], at most 31 characters.
+  MapperConfig mapper;  ///< Keys `map.*`, `window.*`, `vehicle.*`, `layers.*`, `cost.*`.
+  FusionConfig fusion;
+  IpcConfig ipc;
+  OdometryConfig odometry;
+  std::vector<LidarConfig> lidars;  ///< Sorted by name.
+};
+
+}  // namespace gvom::services

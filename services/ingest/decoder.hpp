@@ -1,0 +1,53 @@
+// What turns a sensor's packets into sweeps.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "core/sweep.hpp"
+#include "services/ingest/packet.hpp"
+
+namespace gvom::ingest {
+
+class Decoder {
+ public:
+  virtual ~Decoder() = default;
+
+  /// True if the packet has the size and the marks of this sensor's lidar packets. decode() takes only these.
+  [[nodiscard]] virtual bool recognises(const Packet& packet) const = 0;
+
+  /// What recognises() looks for, in words.
+  [[nodiscard]] virtual std::string expects() const = 0;
+
+  /// Uses one packet. True if it closed a sweep, which is then in `out`.
+  virtual bool decode(const Packet& packet, Sweep& out) = 0;
+
+  /// Closes the open sweep at the end of a recording. True if `out` holds it.
+  virtual bool finish(Sweep& out) = 0;
+
+  /// Forgets the open sweep and everything else about the stream.
+  virtual void reset() = 0;
+
+  /// See Source::set_time_hint.
+  virtual void set_time_hint(std::int64_t /*stamp_ns*/) {}
+};
+
+/// Tells a stream that started again (a sensor that rebooted, a looped recording) from stray packets:
+/// this many in a row that do not fit the open sweep mean that the open sweep is what is out of date.
+class RestartDetector {
+ public:
+  void fits() { misfits_ = 0; }
+
+  /// True if the stream is to be taken up anew with this packet.
+  bool misfits() {
+    if (++misfits_ < kRestartPackets) return false;
+    misfits_ = 0;
+    return true;
+  }
+
+ private:
+  static constexpr int kRestartPackets = 8;
+  int misfits_ = 0;
+};
+
+}  // namespace gvom::ingest

@@ -1,0 +1,165 @@
+#include "services/ingest/frames.hpp"
+
+#include <pcap/dlt.h>
+
+#include <algorithm>
+#include <initializer_list>
+
+#include "services/ingest/bytes.hpp"
+
+namespace gvom::ingest {
+namespace {
+
+constexpr std::uint8_t kUdp = 17;
+constexpr std::uint8_t kIpv6Fragment = 44;
+constexpr int kRawIp = 101;  // LINKTYPE_RAW, where libpcap does not translate it to DLT_RAW
+
+Bytes behind(Bytes bytes, std::size_t count) {
+  return {bytes.data + count, bytes.size - count};
+}
+
+bool is_ip(std::uint16_t ethertype) {
+  return ethertype == 0x0800 || ethertype == 0x86DD;
+}
+
+Bytes strip_ethernet(Bytes frame) {
+  std::size_t at = 12;
+  while (frame.size >= at + 2) {
+    const std::uint16_t type = load_be16(frame.data + at);
+    if (is_ip(type)) return behind(frame, at + 2);
+    const bool vlan = type == 0x8100 || type == 0x88A8 || type == 0x9100;
+    if (!vlan) break;
+    at += 4;
+  }
+  return {};
+}
+
+Bytes strip_cooked(Bytes frame, std::size_t protocol_at, std::size_t header) {
+  if (frame.size < header || !is_ip(load_be16(frame.data + protocol_at))) return {};
+  return behind(frame, header);
+}
+
+/// The IP packet in a frame; null data if there is none.
+Bytes strip_link(int link_type, Bytes frame) {
+  switch (link_type) {
+    case DLT_EN10MB:
+      return strip_ethernet(frame);
+    case DLT_LINUX_SLL:
+      return strip_cooked(frame, 14, 16);
+    case DLT_LINUX_SLL2:
+      return strip_cooked(frame, 0, 20);
+    case DLT_NULL:
+    case DLT_LOOP:
+      return frame.size < 4 ? Bytes{} : behind(frame, 4);
+    default:
+      return frame;
+  }
+}
+
+Address address(const std::uint8_t* bytes, std::size_t size) {
+  Address out{};
+  std::copy_n(bytes, size, out.begin());
+  return out;
+}
+
+}  // namespace
+
+FrameParser::FrameParser(int link_type, std::optional<std::uint16_t> port, SourceCounters& counters)
+    : link_type_(link_type), port_(port), counters_(counters), fragments_(counters) {}
+
+bool FrameParser::supports(int link_type) {
+  const auto known = {DLT_EN10MB, DLT_LINUX_SLL, DLT_LINUX_SLL2, DLT_NULL, DLT_LOOP,
+                      DLT_RAW,    DLT_IPV4,      DLT_IPV6,       kRawIp};
+  return std::find(known.begin(), known.end(), link_type) != known.end();
+}
+
+bool FrameParser::parse(Bytes frame, std::int64_t capture_ns, Packet& out) {
+  out = Packet{};
+  out.capture_ns = capture_ns;
+  const Bytes ip = strip_link(link_type_, frame);
+  switch (parse_ip(ip, out)) {
+    case Verdict::ok:
+      return true;
+    case Verdict::foreign:
+      ++counters_.foreign_packets;
+      return false;
+    case Verdict::truncated:
+      ++counters_.truncated_packets;
+      return false;
+    case Verdict::pending:
+      return false;
+  }
+  return false;
+}
+
+FrameParser::Verdict FrameParser::parse_ip(Bytes ip, Packet& out) {
+  if (ip.data == nullptr || ip.size == 0) return Verdict::foreign;
+  const int version = ip.data[0] >> 4;
+  if (version == 4) return parse_ipv4(ip, out);
+  if (version == 6) return parse_ipv6(ip, out);
+  return Verdict::foreign;
+}
+
+FrameParser::Verdict FrameParser::parse_ipv4(Bytes ip, Packet& out) {
+  if (ip.size < 20) return Verdict::truncated;
+  const std::size_t header = static_cast<std::size_t>(ip.data[0] & 0x0F) * 4;
+  const std::size_t total = load_be16(ip.data + 2);
+  if (ip.data[9] != kUdp || header < 20 || total < header) return Verdict::foreign;
+  if (ip.size < total) return Verdict::truncated;
+  const std::uint16_t flags = load_be16(ip.data + 6);
+  Fragment part;
+  part.source = address(ip.data + 12, 4);
+  part.destination = address(ip.data + 16, 4);
+  part.id = load_be16(ip.data + 4);
+  part.offset = static_cast<std::size_t>(flags & 0x1FFF) * 8;
+  part.more = (flags & 0x2000) != 0;
+  part.data = ip.data + header;
+  part.size = total - header;
+  part.capture_ns = out.capture_ns;
+  out.source = part.source;
+  if (part.more || part.offset != 0) return reassemble(part, out);
+  return parse_udp({part.data, part.size}, out);
+}
+
+FrameParser::Verdict FrameParser::parse_ipv6(Bytes ip, Packet& out) {
+  constexpr std::size_t kHeader = 40;
+  if (ip.size < kHeader) return Verdict::truncated;
+  const std::size_t total = kHeader + load_be16(ip.data + 4);
+  const std::uint8_t next = ip.data[6];
+  if (next != kUdp && next != kIpv6Fragment) return Verdict::foreign;
+  if (ip.size < total) return Verdict::truncated;
+  out.source = address(ip.data + 8, 16);
+  const Bytes payload{ip.data + kHeader, total - kHeader};
+  if (next == kUdp) return parse_udp(payload, out);
+  if (payload.size < 8 || payload.data[0] != kUdp) return Verdict::foreign;
+  const std::uint16_t position = load_be16(payload.data + 2);
+  Fragment part;
+  part.source = out.source;
+  part.destination = address(ip.data + 24, 16);
+  part.id = load_be32(payload.data + 4);
+  part.offset = position & 0xFFF8u;
+  part.more = (position & 1) != 0;
+  part.data = payload.data + 8;
+  part.size = payload.size - 8;
+  part.capture_ns = out.capture_ns;
+  return reassemble(part, out);
+}
+
+FrameParser::Verdict FrameParser::reassemble(const Fragment& fragment, Packet& out) {
+  const Bytes whole = fragments_.add(fragment);
+  return whole.data == nullptr ? Verdict::pending : parse_udp(whole, out);
+}
+
+FrameParser::Verdict FrameParser::parse_udp(Bytes udp, Packet& out) const {
+  constexpr std::size_t kHeader = 8;
+  if (udp.size < kHeader) return Verdict::foreign;
+  const std::size_t length = load_be16(udp.data + 4);
+  if (length < kHeader || length > udp.size) return Verdict::foreign;
+  out.port = load_be16(udp.data + 2);
+  if (port_ && out.port != *port_) return Verdict::foreign;
+  out.data = udp.data + kHeader;
+  out.size = length - kHeader;
+  return Verdict::ok;
+}
+
+}  // namespace gvom::ingest

@@ -1,0 +1,16 @@
+// The clock of `received_ns`.
+#pragma once
+
+#include <cstdint>
+#include <ctime>
+
+namespace gvom::ingest {
+
+/// CLOCK_MONOTONIC, nanoseconds.
+inline std::int64_t monotonic_ns() {
+  timespec now{};
+  ::clock_gettime(CLOCK_MONOTONIC, &now);
+  return static_cast<std::int64_t>(now.tv_sec) * 1'000'000'000 + now.tv_nsec;
+}
+
+}  // namespace gvom::ingest

@@ -1,0 +1,207 @@
+#include "services/ingest/ouster_decoder.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "services/ingest/bytes.hpp"
+
+namespace gvom::ingest {
+namespace {
+
+constexpr int kMaxFramesAhead = 32;
+constexpr int kMaxFramesBehind = 16;
+constexpr std::uint64_t kMaxTimestampNs = std::uint64_t{1} << 62;
+
+/// The pixels of one column, with their ranges read by `range_mm`. Pixels without a return leave nothing;
+/// the write is unconditional and only the count depends on the range, so that nothing mispredicts.
+template <typename RangeMm>
+std::size_t project_pixels(const OusterGeometry& geometry, const OusterGeometry::ColumnTransform& transform,
+                           std::uint32_t time_index, RangeMm range_mm, Return* out) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < geometry.beams.size(); ++i) {
+    const std::uint32_t range = range_mm(i);
+    const auto p = geometry.project(transform, geometry.beams[i], range);
+    out[count] = {p.x_m, p.y_m, p.z_m, time_index};
+    count += range != 0 ? 1 : 0;
+  }
+  return count;
+}
+
+}  // namespace
+
+OusterDecoder::OusterDecoder(OusterMetadata metadata, const SourceOptions& options, SourceState& state)
+    : metadata_(std::move(metadata)),
+      geometry_(metadata_),
+      state_(state),
+      builder_(options, static_cast<std::size_t>(metadata_.columns_per_frame), state.counters),
+      scratch_(2 * metadata_.beams()),
+      fresh_(static_cast<std::size_t>(metadata_.columns_per_frame), ColumnState::outside_window),
+      columns_(fresh_) {
+  for (int i = 0; i < metadata_.window_columns(); ++i) {
+    const int id = (metadata_.window_first + i) % metadata_.columns_per_frame;
+    fresh_[static_cast<std::size_t>(id)] = ColumnState::missing;
+  }
+}
+
+bool OusterDecoder::recognises(const Packet& packet) const {
+  return packet.size == metadata_.packet_size();
+}
+
+std::string OusterDecoder::expects() const {
+  return std::to_string(metadata_.beams()) + " beams, " + std::string(metadata_.layout.name) +
+         ": packets of " + std::to_string(metadata_.packet_size()) + " bytes";
+}
+
+void OusterDecoder::reset() {
+  builder_.discard();
+  restart_.fits();
+  any_frame_ = open_ = false;
+}
+
+/// The frame of a packet; nothing if it holds no valid column to tell it.
+std::optional<std::uint16_t> OusterDecoder::frame_of(const std::uint8_t* packet) const {
+  const OusterLayout& layout = metadata_.layout;
+  if (layout.profile != OusterProfile::legacy) return load_le<std::uint16_t>(packet + 2);
+  // A column that is not valid may hold anything, so the first valid one tells.
+  for (int i = 0; i < metadata_.columns_per_packet; ++i) {
+    const auto column =
+        read_ouster_column(layout, packet + i * layout.column_size(metadata_.beams()), metadata_.beams());
+    if (column.valid) return column.frame_id;
+  }
+  return std::nullopt;
+}
+
+OusterDecoder::Belongs OusterDecoder::classify(std::uint16_t frame) const {
+  if (!any_frame_) return Belongs::next_frame;
+  const auto ahead = static_cast<std::int16_t>(static_cast<std::uint16_t>(frame - frame_));
+  if (ahead == 0) return open_ ? Belongs::open_frame : Belongs::just_completed;
+  if (ahead > 0 && ahead <= kMaxFramesAhead) return Belongs::next_frame;
+  if (ahead < 0 && ahead >= -kMaxFramesBehind) return Belongs::closed_frame;
+  return Belongs::nowhere;
+}
+
+/// True if the packet starts the stream anew, else it is counted as what it is.
+bool OusterDecoder::count_stray(Belongs belongs) {
+  if (restart_.misfits()) return true;
+  SourceCounters& counters = state_.counters;
+  if (belongs == Belongs::closed_frame) ++counters.late_packets;
+  if (belongs == Belongs::just_completed) ++counters.duplicate_packets;
+  if (belongs == Belongs::nowhere) ++counters.foreign_packets;
+  return false;
+}
+
+bool OusterDecoder::decode(const Packet& packet, Sweep& out) {
+  const auto frame = frame_of(packet.data);
+  if (!frame) {
+    state_.counters.invalid_columns += static_cast<std::uint64_t>(metadata_.columns_per_packet);
+    return false;
+  }
+  const Belongs belongs = classify(*frame);
+  const bool fits = belongs == Belongs::open_frame || belongs == Belongs::next_frame;
+  if (fits) restart_.fits();
+  if (!fits && !count_stray(belongs)) return false;
+  check_serial(packet.data);
+  bool closed = false;
+  if (belongs != Belongs::open_frame) {
+    closed = open_ && close(out);
+    begin(*frame);
+  }
+  use(packet);
+  if (!closed && received_ == metadata_.window_columns()) return close(out);
+  return closed;
+}
+
+bool OusterDecoder::finish(Sweep& out) {
+  return open_ && close(out);
+}
+
+void OusterDecoder::begin(std::uint16_t frame) {
+  frame_ = frame;
+  any_frame_ = open_ = true;
+  received_ = 0;
+  highest_ = -1;
+  columns_ = fresh_;
+}
+
+bool OusterDecoder::close(Sweep& out) {
+  open_ = false;
+  const int expected = metadata_.window_columns();
+  return builder_.close(static_cast<double>(received_) / expected, received_ >= expected, out);
+}
+
+bool OusterDecoder::usable(const OusterColumn& column) const {
+  const bool other_frame = metadata_.layout.profile == OusterProfile::legacy && column.frame_id != frame_;
+  return column.valid && !other_frame && column.timestamp_ns <= kMaxTimestampNs &&
+         column.measurement_id < columns_.size() &&
+         columns_[column.measurement_id] != ColumnState::outside_window;
+}
+
+void OusterDecoder::use(const Packet& packet) {
+  const std::size_t beams = metadata_.beams();
+  const std::uint8_t* bytes = packet.data + metadata_.layout.packet_header;
+  bool duplicate = false;
+  bool behind = false;
+  for (int i = 0; i < metadata_.columns_per_packet; ++i, bytes += metadata_.layout.column_size(beams)) {
+    const OusterColumn column = read_ouster_column(metadata_.layout, bytes, beams);
+    if (!usable(column)) {
+      ++state_.counters.invalid_columns;
+    } else if (columns_[column.measurement_id] == ColumnState::received) {
+      duplicate = true;
+    } else {
+      behind = behind || column.measurement_id < highest_;
+      use_column(bytes, column);
+    }
+  }
+  if (duplicate) ++state_.counters.duplicate_packets;
+  if (behind) ++state_.counters.out_of_order_packets;
+  builder_.set_received(packet.received_ns);
+}
+
+void OusterDecoder::use_column(const std::uint8_t* bytes, const OusterColumn& column) {
+  columns_[column.measurement_id] = ColumnState::received;
+  highest_ = std::max<int>(highest_, column.measurement_id);
+  ++received_;
+  const std::uint32_t index = builder_.add_time(static_cast<std::int64_t>(column.timestamp_ns));
+  builder_.append(scratch_.data(),
+                  project(bytes + metadata_.layout.column_header, column.measurement_id, index));
+}
+
+std::size_t OusterDecoder::project(const std::uint8_t* pixels, std::uint16_t measurement_id,
+                                   std::uint32_t time_index) {
+  const auto& transform = geometry_.columns[measurement_id];
+  const auto run = [&](auto range_mm, std::size_t at) {
+    return project_pixels(geometry_, transform, time_index, range_mm, scratch_.data() + at);
+  };
+  switch (metadata_.layout.profile) {
+    case OusterProfile::legacy:
+      return run([=](std::size_t i) { return load_le<std::uint32_t>(pixels + 12 * i) & 0xFFFFFu; }, 0);
+    case OusterProfile::rng15:
+      return run([=](std::size_t i) { return (load_le<std::uint16_t>(pixels + 4 * i) & 0x7FFFu) * 8u; }, 0);
+    case OusterProfile::rng19:
+      return run([=](std::size_t i) { return load_le<std::uint32_t>(pixels + 12 * i) & 0x7FFFFu; }, 0);
+    case OusterProfile::rng19_dual: {
+      const auto first = [=](std::size_t i) { return load_le<std::uint32_t>(pixels + 16 * i) & 0x7FFFFu; };
+      const auto second = [=](std::size_t i) {
+        const std::uint32_t range = load_le<std::uint32_t>(pixels + 16 * i + 4) & 0x7FFFFu;
+        return range == first(i) ? 0u : range;
+      };
+      const std::size_t count = run(first, 0);
+      return count + run(second, count);
+    }
+  }
+  return 0;
+}
+
+/// Packets of the newer profiles carry the sensor's serial number, 5 bytes.
+void OusterDecoder::check_serial(const std::uint8_t* packet) {
+  if (serial_checked_) return;
+  serial_checked_ = true;
+  if (metadata_.layout.profile == OusterProfile::legacy || metadata_.serial == 0) return;
+  const std::uint64_t serial = load_le<std::uint64_t>(packet + 7) & 0xFFFFFFFFFFu;
+  if (serial == 0 || serial == metadata_.serial) return;
+  state_.warnings.push_back("the metadata is of sensor " + std::to_string(metadata_.serial) +
+                            ", the packets are of sensor " + std::to_string(serial) +
+                            ": beam angles may be wrong");
+}
+
+}  // namespace gvom::ingest

@@ -1,0 +1,58 @@
+// Ouster lidar packets to sweeps.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "services/ingest/decoder.hpp"
+#include "services/ingest/ouster_geometry.hpp"
+#include "services/ingest/sweep_builder.hpp"
+
+namespace gvom::ingest {
+
+/// A sweep is a frame of the sensor. It is closed by the arrival of its last column or of the next frame.
+class OusterDecoder final : public Decoder {
+ public:
+  /// `state` must outlive the decoder.
+  OusterDecoder(OusterMetadata metadata, const SourceOptions& options, SourceState& state);
+
+  [[nodiscard]] bool recognises(const Packet& packet) const override;
+  [[nodiscard]] std::string expects() const override;
+  bool decode(const Packet& packet, Sweep& out) override;
+  bool finish(Sweep& out) override;
+  void reset() override;
+
+ private:
+  enum class ColumnState : std::uint8_t { missing, received, outside_window };
+  enum class Belongs { open_frame, next_frame, closed_frame, just_completed, nowhere };
+
+  [[nodiscard]] std::optional<std::uint16_t> frame_of(const std::uint8_t* packet) const;
+  [[nodiscard]] Belongs classify(std::uint16_t frame) const;
+  bool count_stray(Belongs belongs);
+  void begin(std::uint16_t frame);
+  bool close(Sweep& out);
+  [[nodiscard]] bool usable(const OusterColumn& column) const;
+  void use(const Packet& packet);
+  void use_column(const std::uint8_t* bytes, const OusterColumn& column);
+  std::size_t project(const std::uint8_t* pixels, std::uint16_t measurement_id, std::uint32_t time_index);
+  void check_serial(const std::uint8_t* packet);
+
+  OusterMetadata metadata_;
+  OusterGeometry geometry_;
+  SourceState& state_;
+  SweepBuilder builder_;
+  RestartDetector restart_;
+  std::vector<Return> scratch_;       // the returns of one column
+  std::vector<ColumnState> fresh_;    // a frame of which nothing came, by measurement id
+  std::vector<ColumnState> columns_;  // the open frame
+  int received_ = 0;                  // columns of the open frame
+  int highest_ = -1;                  // measurement id of the open frame so far
+  std::uint16_t frame_ = 0;
+  bool any_frame_ = false;
+  bool open_ = false;
+  bool serial_checked_ = false;
+};
+
+}  // namespace gvom::ingest

@@ -1,0 +1,51 @@
+// UDP payloads, and where they come from: a recording or a socket.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+#include "services/ingest/source.hpp"
+
+namespace gvom::ingest {
+
+/// An IPv6 address, or an IPv4 one in the first four bytes.
+using Address = std::array<std::uint8_t, 16>;
+
+/// The payload of one UDP datagram. `data` stays valid until the source's next call.
+struct Packet {
+  const std::uint8_t* data = nullptr;
+  std::size_t size = 0;
+  std::int64_t capture_ns = 0;   ///< Capture time of a recording (Unix time); 0 live.
+  std::int64_t received_ns = 0;  ///< CLOCK_MONOTONIC; 0 in a recording.
+  Address source{};              ///< The sender.
+  std::uint16_t port = 0;        ///< The destination port.
+};
+
+/// What the parts of one source report to.
+struct SourceState {
+  SourceCounters counters;
+  std::vector<std::string> warnings;
+};
+
+enum class PacketEvent { packet, idle, end };
+
+class PacketSource {
+ public:
+  virtual ~PacketSource() = default;
+
+  /// The next payload; what is no UDP payload is counted and passed over. Live: `idle` after `timeout`.
+  virtual tl::expected<PacketEvent, std::string> next(Packet& out, std::chrono::milliseconds timeout) = 0;
+
+  /// Starts a recording again; an error for a live source.
+  virtual tl::expected<void, std::string> rewind() = 0;
+
+  [[nodiscard]] virtual bool is_live() const = 0;
+};
+
+}  // namespace gvom::ingest

@@ -1,0 +1,95 @@
+#include "services/ingest/packet_sweep_source.hpp"
+
+#include <utility>
+
+#include "services/ingest/monotonic.hpp"
+
+namespace gvom::ingest {
+namespace {
+
+constexpr int kUnrecognisedBeforeWarning = 500;
+// A live queue is drained even when the timeout is over, but a flood of foreign packets must not hold the
+// caller.
+constexpr std::int64_t kMaxOvertimeNs = 50'000'000;
+
+}  // namespace
+
+PacketSweepSource::PacketSweepSource(std::unique_ptr<SourceState> state,
+                                     std::unique_ptr<PacketSource> packets, std::unique_ptr<Decoder> decoder)
+    : state_(std::move(state)), packets_(std::move(packets)), decoder_(std::move(decoder)) {}
+
+tl::expected<SourceEvent, std::string> PacketSweepSource::next(Sweep& out,
+                                                               std::chrono::milliseconds timeout) {
+  out.clear();
+  if (ended_) return end(out);
+  const std::int64_t deadline_ns = monotonic_ns() + std::chrono::nanoseconds(timeout).count();
+  std::chrono::milliseconds wait = timeout;
+  for (;;) {
+    Packet packet;
+    const auto event = packets_->next(packet, wait);
+    if (!event) error_ = event.error();
+    if (!event || *event == PacketEvent::end) return end(out);
+    if (*event == PacketEvent::idle) return SourceEvent::kIdle;
+    if (decode(packet, out)) return SourceEvent::kSweep;
+    if (!is_live()) continue;
+    const std::int64_t left_ns = deadline_ns - monotonic_ns();
+    if (left_ns < -kMaxOvertimeNs) return SourceEvent::kIdle;
+    wait = std::chrono::milliseconds(left_ns > 0 ? left_ns / 1'000'000 : 0);
+  }
+}
+
+bool PacketSweepSource::decode(const Packet& packet, Sweep& out) {
+  ++state_->counters.packets;
+  if (!decoder_->recognises(packet)) {
+    ++state_->counters.foreign_packets;
+    warn_if_nothing_fits(packet.size);
+    return false;
+  }
+  if (!is_of_our_sensor(packet)) {
+    ++state_->counters.foreign_packets;
+    return false;
+  }
+  return decoder_->decode(packet, out);
+}
+
+/// The first sender is the sensor, until packets come from another one only (it was given a new address).
+bool PacketSweepSource::is_of_our_sensor(const Packet& packet) {
+  const bool same = !sensor_ || *sensor_ == packet.source;
+  if (same) other_sensor_.fits();
+  if (!same && !other_sensor_.misfits()) return false;
+  sensor_ = packet.source;
+  return true;
+}
+
+void PacketSweepSource::warn_if_nothing_fits(std::size_t packet_size) {
+  if (sensor_ || ++unrecognised_ != kUnrecognisedBeforeWarning) return;
+  state_->warnings.push_back("none of " + std::to_string(unrecognised_) + " packets is what is expected (" +
+                             decoder_->expects() + "); the last one has " + std::to_string(packet_size) +
+                             " bytes");
+}
+
+/// The open sweep first, then the error if there is one, then the end.
+tl::expected<SourceEvent, std::string> PacketSweepSource::end(Sweep& out) {
+  if (!ended_ && decoder_->finish(out)) {
+    ended_ = true;
+    return SourceEvent::kSweep;
+  }
+  ended_ = true;
+  if (!error_) return SourceEvent::kEnd;
+  const std::string error = std::move(*error_);
+  error_.reset();
+  return tl::unexpected(error);
+}
+
+tl::expected<void, std::string> PacketSweepSource::rewind() {
+  auto done = packets_->rewind();
+  if (!done) return done;
+  decoder_->reset();
+  sensor_.reset();
+  other_sensor_.fits();
+  error_.reset();
+  ended_ = false;
+  return {};
+}
+
+}  // namespace gvom::ingest

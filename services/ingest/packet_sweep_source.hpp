@@ -1,0 +1,43 @@
+// A source of sweeps made of a packet source and a decoder.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "services/ingest/decoder.hpp"
+#include "services/ingest/packet.hpp"
+
+namespace gvom::ingest {
+
+class PacketSweepSource final : public Source {
+ public:
+  /// `packets` and `decoder` report to `state`.
+  PacketSweepSource(std::unique_ptr<SourceState> state, std::unique_ptr<PacketSource> packets,
+                    std::unique_ptr<Decoder> decoder);
+
+  tl::expected<SourceEvent, std::string> next(Sweep& out, std::chrono::milliseconds timeout) override;
+  tl::expected<void, std::string> rewind() override;
+  [[nodiscard]] bool is_live() const override { return packets_->is_live(); }
+  void set_time_hint(std::int64_t stamp_ns) override { decoder_->set_time_hint(stamp_ns); }
+  [[nodiscard]] const SourceCounters& counters() const override { return state_->counters; }
+  [[nodiscard]] const std::vector<std::string>& warnings() const override { return state_->warnings; }
+
+ private:
+  bool decode(const Packet& packet, Sweep& out);
+  bool is_of_our_sensor(const Packet& packet);
+  void warn_if_nothing_fits(std::size_t packet_size);
+  tl::expected<SourceEvent, std::string> end(Sweep& out);
+
+  std::unique_ptr<SourceState> state_;
+  std::unique_ptr<PacketSource> packets_;
+  std::unique_ptr<Decoder> decoder_;
+  std::optional<Address> sensor_;
+  RestartDetector other_sensor_;
+  std::optional<std::string> error_;  // to be told after the last sweep
+  bool ended_ = false;
+  int unrecognised_ = 0;  // packets before the first that the decoder recognises
+};
+
+}  // namespace gvom::ingest

@@ -1,0 +1,77 @@
+// Where sweeps come from: a recording or a live sensor, through the same decoder.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+#include "core/sweep.hpp"
+
+namespace gvom::ingest {
+
+/// Why input was not used. Everything that is dropped is in exactly one of these.
+struct SourceCounters {
+  std::uint64_t packets = 0;            ///< Packets handed to the decoder.
+  std::uint64_t sweeps = 0;             ///< Sweeps handed out (complete or not).
+  std::uint64_t incomplete_sweeps = 0;  ///< ... of these, with columns missing.
+  std::uint64_t dropped_sweeps = 0;     ///< Under `min_sweep_fraction`, not handed out.
+  std::uint64_t foreign_packets = 0;    ///< Another size, another protocol, another sensor.
+  std::uint64_t truncated_packets = 0;  ///< Captured shorter than sent.
+  std::uint64_t duplicate_packets = 0;
+  std::uint64_t out_of_order_packets = 0;  ///< Late, but still of the open sweep: used.
+  std::uint64_t late_packets = 0;          ///< Of a sweep that was closed already: dropped.
+  std::uint64_t fragments = 0;             ///< IP fragments seen.
+  std::uint64_t lost_fragments = 0;        ///< Datagrams given up because a fragment is missing.
+  std::uint64_t kernel_drops = 0;          ///< Lost in the socket's queue (live only).
+  std::uint64_t invalid_columns = 0;       ///< Columns that the sensor itself marked invalid.
+  std::uint64_t overflow_returns = 0;      ///< Beyond `max_returns`.
+};
+
+/// What `Source::next` found.
+enum class SourceEvent {
+  kSweep,  ///< `out` holds a sweep.
+  kIdle,   ///< Live: nothing whole within the timeout. Call again.
+  kEnd,    ///< A recording is at its end.
+};
+
+struct SourceOptions {
+  double min_sweep_fraction = 0.5;
+  std::size_t max_returns = 262144;
+};
+
+class Source {
+ public:
+  virtual ~Source() = default;
+
+  /// Fills `out` (cleared first) with the next sweep. Allocates nothing after the first few sweeps.
+  /// A recording never returns kIdle. An error (a corrupt file: path, packet number or line, reason)
+  /// ends the source.
+  virtual tl::expected<SourceEvent, std::string> next(Sweep& out, std::chrono::milliseconds timeout) = 0;
+
+  /// Starts a recording again from its first sweep (a looped replay); an error for a live source.
+  virtual tl::expected<void, std::string> rewind() = 0;
+
+  /// True for sensors on the network: they do not wait for anybody.
+  [[nodiscard]] virtual bool is_live() const = 0;
+
+  /// For sensors without absolute time (Velodyne counts microseconds past the hour): a time near now
+  /// on the odometry's clock, from which the hour is taken. Others ignore it.
+  virtual void set_time_hint(std::int64_t stamp_ns) = 0;
+
+  [[nodiscard]] virtual const SourceCounters& counters() const = 0;
+
+  /// Things a person should hear of once, such as metadata keys that were missing and what stands in.
+  [[nodiscard]] virtual const std::vector<std::string>& warnings() const = 0;
+};
+
+/// Opens `ouster:FILE.pcap?meta=FILE.json`, `ouster-udp:PORT?meta=FILE.json`, `velodyne:FILE.pcap?model=M`,
+/// `velodyne-udp:PORT?model=M` (M: VLP-16, VLP-32C, HDL-32) or `scans:PATH`.
+/// Errors say which file and why.
+tl::expected<std::unique_ptr<Source>, std::string> open_source(const std::string& uri,
+                                                               const SourceOptions& options);
+
+}  // namespace gvom::ingest

@@ -1,0 +1,82 @@
+// Velodyne lidar packets to sweeps.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "services/ingest/decoder.hpp"
+#include "services/ingest/hour_clock.hpp"
+#include "services/ingest/sweep_builder.hpp"
+#include "services/ingest/velodyne_model.hpp"
+
+namespace gvom::ingest {
+
+/// A sweep is a turn, cut where the azimuth passes through 0. Axes: x forward (azimuth 0), y left, z up.
+class VelodyneDecoder final : public Decoder {
+ public:
+  /// `state` must outlive the decoder.
+  VelodyneDecoder(const VelodyneModel& model, const SourceOptions& options, SourceState& state);
+
+  [[nodiscard]] bool recognises(const Packet& packet) const override;
+  [[nodiscard]] std::string expects() const override;
+  bool decode(const Packet& packet, Sweep& out) override;
+  bool finish(Sweep& out) override;
+  void reset() override;
+  void set_time_hint(std::int64_t stamp_ns) override { clock_.hint(stamp_ns); }
+
+ private:
+  static constexpr int kBlocks = 12;
+
+  /// Where a packet stands against the open sweep; `jump` means that the sweep ends before it in any case.
+  enum class Place { next, within, duplicate, late, jump };
+
+  /// A block of a packet, or two that hold the two returns of the same shots (dual return mode).
+  struct Shot {
+    const std::uint8_t* first;
+    const std::uint8_t* second;  // null unless dual
+    std::int64_t time_ns;
+    int azimuth;  // 1/100 degree
+    int gap;      // azimuth from here to the next block, 1/100 degree
+  };
+
+  int read_shots(const std::uint8_t* packet, std::int64_t time_ns);
+  void fill_gaps(int count);
+  Place place(std::int64_t time_ns);
+  bool use(const Packet& packet, std::int64_t time_ns, bool may_cut, Sweep& out);
+  void begin(std::int64_t time_ns);
+  void add(const Shot& shot);
+  std::size_t project(const Shot& shot, const std::uint8_t* block, int firing, std::uint32_t time_index);
+  bool close(Sweep& out);
+  void forget();
+  void check_product(std::uint8_t product_id);
+  void check_hour();
+
+  struct LaserTrigonometry {
+    double cos_vertical, sin_vertical;
+  };
+
+  const VelodyneModel& model_;
+  SourceState& state_;
+  SweepBuilder builder_;
+  HourClock clock_;
+  RestartDetector restart_;
+  std::array<LaserTrigonometry, 32> lasers_{};
+  std::array<Shot, kBlocks> shots_{};
+  std::array<Return, 64> scratch_{};           // the returns of one firing
+  std::vector<std::int64_t> packet_times_ns_;  // of the open sweep
+  bool open_ = false;
+  bool dual_ = false;           // of the packet at hand
+  std::int64_t start_ns_ = 0;   // packet in which the open sweep began
+  std::int64_t newest_ns_ = 0;  // newest packet
+  int azimuth_ = 0;             // newest block
+  int last_gap_ = 0;
+  std::int64_t gap_sum_ = 0;  // of the open sweep's blocks
+  int gap_count_ = 0;
+  int received_ = 0;  // shots in the open sweep
+  bool product_checked_ = false;
+  bool hour_checked_ = false;
+};
+
+}  // namespace gvom::ingest

@@ -1,0 +1,116 @@
+// Signals stop the process once, softly; a second one at once.
+#include <catch2/catch.hpp>
+
+#include <atomic>
+#include <chrono>
+#include <cstdlib>
+#include <memory>
+#include <sstream>
+#include <thread>
+
+#include <signal.h>
+#include <spdlog/sinks/ostream_sink.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "services/common/lifecycle.hpp"
+#include "services/common/log.hpp"
+
+namespace {
+
+using namespace std::chrono_literals;
+using gvom::services::Lifecycle;
+using std::chrono::steady_clock;
+
+/// Runs `child` in a process of its own; its wait status.
+template <typename Child>
+int status_of(Child child) {
+  const pid_t pid = fork();
+  if (pid == 0) {
+    signal(SIGTERM, SIG_DFL);  // Catch has its own handlers
+    signal(SIGINT, SIG_DFL);
+    _exit(child());
+  }
+  int status = 0;
+  waitpid(pid, &status, 0);
+  return status;
+}
+
+}  // namespace
+
+TEST_CASE("a signal wakes a sleep, runs the callback once and is seen") {
+  for (const int signal : {SIGTERM, SIGINT}) {
+    Lifecycle lifecycle;
+    std::atomic<int> calls{0};
+    lifecycle.on_stop([&] { ++calls; });
+    CHECK_FALSE(lifecycle.stopping());
+    kill(getpid(), signal);
+    const auto begin = steady_clock::now();
+    CHECK_FALSE(lifecycle.sleep_until(begin + 20s));
+    CHECK(steady_clock::now() - begin < 10s);
+    CHECK(lifecycle.stopping());
+    lifecycle.on_stop({});
+    CHECK(calls == 1);
+  }
+}
+
+TEST_CASE("a callback that comes after the stop runs at once") {
+  Lifecycle lifecycle;
+  lifecycle.request_stop();
+  bool called = false;
+  lifecycle.on_stop([&] { called = true; });
+  CHECK(called);
+}
+
+TEST_CASE("a sleep ends at its deadline") {
+  Lifecycle lifecycle;
+  const auto deadline = steady_clock::now() + 30ms;
+  CHECK(lifecycle.sleep_until(deadline));
+  CHECK(steady_clock::now() >= deadline);
+}
+
+TEST_CASE("a second signal ends the process at once with 128 + its number") {
+  const int status = status_of([] {
+    Lifecycle lifecycle;
+    kill(getpid(), SIGTERM);
+    while (!lifecycle.stopping()) std::this_thread::sleep_for(1ms);
+    kill(getpid(), SIGINT);
+    std::this_thread::sleep_for(20s);
+    return 0;
+  });
+  CHECK(WIFEXITED(status));
+  CHECK(WEXITSTATUS(status) == 128 + SIGINT);
+}
+
+TEST_CASE("when the lifecycle has ended a signal has its usual effect") {
+  const int status = status_of([] {
+    { Lifecycle lifecycle; }
+    kill(getpid(), SIGTERM);
+    std::this_thread::sleep_for(20s);
+    return 0;
+  });
+  CHECK(WIFSIGNALED(status));
+  CHECK(WTERMSIG(status) == SIGTERM);
+}
+
+TEST_CASE("without systemd its notifications do nothing") {
+  unsetenv("NOTIFY_SOCKET");
+  gvom::services::notify_ready();
+  gvom::services::notify_status("well");
+  gvom::services::notify_watchdog();
+  gvom::services::notify_stopping();
+}
+
+TEST_CASE("LogEvery holds lines back within its period and says how many") {
+  std::ostringstream out;
+  const auto before = spdlog::default_logger();
+  spdlog::set_default_logger(
+      std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_st>(out)));
+  spdlog::set_pattern("%v");
+  gvom::services::LogEvery log(200ms);
+  for (int i = 0; i < 3; ++i) log(spdlog::level::info, "line {}", i);
+  std::this_thread::sleep_for(250ms);
+  log(spdlog::level::info, "line {}", 3);
+  spdlog::set_default_logger(before);
+  CHECK(out.str() == "line 0\nline 3 (2 more like this)\n");
+}

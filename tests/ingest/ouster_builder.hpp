@@ -1,0 +1,95 @@
+// Builds Ouster metadata and lidar packets.
+#pragma once
+
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "tests/ingest/frames_builder.hpp"
+
+namespace gvom::test {
+
+/// A small sensor: by default two beams, level and 30 degrees up, 16 columns a turn in packets of 4.
+struct OusterSensor {
+  std::string profile = "LEGACY";
+  std::string altitudes = "[0, 30]";
+  std::string azimuths = "[0, 0]";
+  std::string beam_offset_mm = "0";
+  std::string transform = "[1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]";
+  std::string window = "[0, 15]";
+  int beams = 2;
+  int columns = 16;
+  int columns_per_packet = 4;
+
+  [[nodiscard]] std::string json() const {
+    return R"({"beam_altitude_angles": )" + altitudes + R"(, "beam_azimuth_angles": )" + azimuths +
+           R"(, "lidar_origin_to_beam_origin_mm": )" + beam_offset_mm + R"(, "lidar_to_sensor_transform": )" +
+           transform + R"(, "data_format": {"columns_per_frame": )" + std::to_string(columns) +
+           R"(, "columns_per_packet": )" + std::to_string(columns_per_packet) + R"(, "pixels_per_column": )" +
+           std::to_string(beams) + R"(, "column_window": )" + window + R"(, "udp_profile_lidar": ")" + profile +
+           "\"}}";
+  }
+};
+
+inline std::string write_text(const std::string& path, const std::string& text) {
+  std::ofstream(path) << text;
+  return path;
+}
+
+/// What a column holds: ranges by beam, in the profile's own unit; the second return only for DUAL.
+struct Column {
+  int id = 0;
+  std::vector<std::uint32_t> ranges;
+  std::vector<std::uint32_t> second = {};
+  bool valid = true;
+};
+
+/// The time of a column in these packets.
+inline std::int64_t column_time_ns(int frame, int id) { return 1'000'000'000LL + frame * 100'000'000LL + id * 1'000'000LL; }
+
+inline void put_pixel(ByteVector& out, const OusterSensor& sensor, const Column& column, std::size_t beam) {
+  const std::uint32_t range = column.ranges.at(beam);
+  if (sensor.profile == "RNG15_RFL8_NIR8") {
+    put_le(out, static_cast<std::uint16_t>(range | 0x8000));  // the top bit is not range
+    put_le(out, std::uint16_t{0xFFFF});
+    return;
+  }
+  const std::uint32_t noise = sensor.profile == "LEGACY" ? 0xFFF00000 : 0xFFF80000;
+  put_le(out, range | noise);
+  if (sensor.profile == "RNG19_RFL8_SIG16_NIR16_DUAL") {
+    put_le(out, (column.second.empty() ? 0 : column.second.at(beam)) | noise);
+  }
+  put_le(out, std::uint64_t{0xFFFFFFFFFFFFFFFF});
+}
+
+inline ByteVector ouster_packet(const OusterSensor& sensor, int frame, const std::vector<Column>& columns) {
+  const bool legacy = sensor.profile == "LEGACY";
+  ByteVector out;
+  if (!legacy) {
+    put_le(out, std::uint16_t{1});
+    put_le(out, static_cast<std::uint16_t>(frame));
+    out.resize(32);
+  }
+  for (const Column& column : columns) {
+    put_le(out, column_time_ns(frame, column.id));
+    put_le(out, static_cast<std::uint16_t>(column.id));
+    if (legacy) put_le(out, static_cast<std::uint16_t>(frame));
+    if (legacy) put_le(out, std::uint32_t{0});
+    if (!legacy) put_le(out, static_cast<std::uint16_t>(column.valid ? 1 : 0));
+    for (std::size_t beam = 0; beam < column.ranges.size(); ++beam) put_pixel(out, sensor, column, beam);
+    if (legacy) put_le(out, column.valid ? 0xFFFFFFFFu : 0u);
+  }
+  if (!legacy) out.resize(out.size() + 32);
+  return out;
+}
+
+/// A packet whose pixels all have the same range.
+inline ByteVector plain_packet(const OusterSensor& sensor, int frame, int first_id, std::uint32_t range = 5000) {
+  std::vector<Column> columns;
+  for (int i = 0; i < sensor.columns_per_packet; ++i) {
+    columns.push_back({first_id + i, std::vector<std::uint32_t>(static_cast<std::size_t>(sensor.beams), range)});
+  }
+  return ouster_packet(sensor, frame, columns);
+}
+
+}  // namespace gvom::test

@@ -1,0 +1,47 @@
+#include "tools/benchmark/recording.hpp"
+
+#include "core/odometry_buffer.hpp"
+#include "services/common/tum.hpp"
+#include "services/ingest/source.hpp"
+
+namespace gvom::bench {
+
+namespace {
+
+tl::expected<std::vector<Sweep>, std::string> read_sweeps(const std::string& folder) {
+  const auto source = ingest::open_source("scans:" + folder, {});
+  if (!source) return tl::unexpected(source.error());
+  std::vector<Sweep> sweeps;
+  for (;;) {
+    Sweep sweep;
+    const auto event = (*source)->next(sweep, std::chrono::milliseconds(0));
+    if (!event) return tl::unexpected(event.error());
+    if (*event == ingest::SourceEvent::kEnd) return sweeps;
+    sweeps.push_back(std::move(sweep));
+  }
+}
+
+}  // namespace
+
+tl::expected<Recording, std::string> read_recording(const std::string& folder, const std::string& odometry,
+                                                    double sensor_height_m) {
+  auto sweeps = read_sweeps(folder);
+  if (!sweeps) return tl::unexpected(sweeps.error());
+  const auto poses = services::read_tum(odometry);
+  if (!poses) return tl::unexpected(poses.error());
+  OdometryBuffer buffer(poses->size());
+  for (const StampedPose& pose : *poses) buffer.add(pose);
+
+  Recording recording;
+  recording.name = folder;
+  recording.lidar.T_base_sensor.translation().z() = sensor_height_m;
+  for (Sweep& sweep : *sweeps) {
+    const auto pose = buffer.at(sweep.stamp_ns);
+    if (!pose) return tl::unexpected(odometry + ": no pose around a sweep of " + folder);
+    recording.T_odom_base.push_back(*pose);
+  }
+  recording.sweeps = std::move(*sweeps);
+  return recording;
+}
+
+}  // namespace gvom::bench

@@ -1,0 +1,40 @@
+// The one table of a run.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/benchmark/samples.hpp"
+
+namespace gvom::bench {
+
+struct Row {
+  std::string name;
+  double p50_ms;
+  double p99_ms;
+  std::size_t runs;
+  std::optional<double> ratio;  ///< Median over that of the row it is compared with.
+  std::string compared_with;
+};
+
+struct Report {
+  std::string machine;
+  std::string recording;
+  std::size_t sweeps = 0;
+  double returns_per_sweep = 0;
+  double passes_per_sweep = 0;
+  double ns_per_pass = 0;  ///< Of counting and writing.
+  std::vector<Row> rows;
+
+  void add(const std::string& name, const Samples& samples) {
+    rows.push_back({name, samples.quantile_ms(0.5), samples.quantile_ms(0.99), samples.size(), {}, {}});
+  }
+  /// A row with its ratio to an earlier one.
+  void add(const std::string& name, const Samples& samples, const std::string& compared_with);
+};
+
+std::string table(const Report& report);
+std::string to_json(const Report& report);
+
+}  // namespace gvom::bench

@@ -1,0 +1,114 @@
+// gvom-map: recordings to maps in one process, without the bus. Scripts rely on what it writes.
+#include <spdlog/spdlog.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "services/common/cli.hpp"
+#include "services/common/log.hpp"
+#include "tools/map/offline.hpp"
+#include "tools/map/output.hpp"
+
+namespace {
+
+using gvom::services::ExitCode;
+using gvom::services::to_int;
+
+struct Options {
+  std::vector<std::string> sources;
+  std::string odometry;
+  std::string out;
+  bool voxels = false;
+};
+
+// `NAME=URI` for the vehicle's lidars; the exit code for what is wrong with them.
+ExitCode apply_sources(const std::vector<std::string>& sources, gvom::services::VehicleConfig& config) {
+  for (const std::string& source : sources) {
+    const std::size_t equals = source.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == source.size()) {
+      spdlog::error("--source {}: expected NAME=URI", source);
+      return ExitCode::usage;
+    }
+    const auto lidar = gvom::services::find_lidar(config, source.substr(0, equals));
+    if (!lidar) {
+      spdlog::error("--source {}: {}", source, lidar.error().text());
+      return ExitCode::configuration;
+    }
+    config.lidars[static_cast<std::size_t>(*lidar - config.lidars.data())].source = source.substr(equals + 1);
+  }
+  return ExitCode::ok;
+}
+
+tl::expected<void, std::string> write_map(gvom::tools::OfflineMapper& mapper,
+                                          const gvom::tools::MappedSweep& sweep,
+                                          gvom::tools::LayerBuffers& layers, const std::string& folder,
+                                          bool voxels) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) return tl::unexpected(folder + ": " + error.message());
+  mapper.make_layers(layers.arrays());
+  auto written = layers.write(folder);
+  if (written && voxels) written = gvom::tools::write_voxels(folder, mapper.fuser().fused());
+  return written ? gvom::tools::write_meta(folder, mapper, sweep) : written;
+}
+
+int run(const gvom::services::VehicleConfig& config, const Options& options) {
+  auto mapper = gvom::tools::OfflineMapper::open(config, options.odometry);
+  if (!mapper) {
+    spdlog::error("{}", mapper.error());
+    return to_int(ExitCode::bad_data);
+  }
+  for (const auto& lidar : mapper->lidars())
+    for (const std::string& warning : lidar.source->warnings())
+      spdlog::warn("lidar {}: {}", lidar.name, warning);
+
+  gvom::tools::LayerBuffers layers(config.mapper.map.size_xy);
+  gvom::tools::MappedSweep sweep;
+  int maps = 0;
+  ExitCode code = ExitCode::ok;
+  for (;;) {
+    const auto mapped = mapper->next(sweep);
+    if (!mapped) {  // one recording broke off; the others go on
+      spdlog::error("{}", mapped.error());
+      code = ExitCode::bad_data;
+      continue;
+    }
+    if (!*mapped) break;
+    const std::string folder = fmt::format("{}/{:06d}", options.out, maps++);
+    if (const auto written = write_map(*mapper, sweep, layers, folder, options.voxels); !written) {
+      spdlog::error("{}", written.error());
+      return to_int(ExitCode::unavailable);
+    }
+  }
+  spdlog::info("{} maps in {}; {} sweeps without odometry around them, {} maps refused", maps, options.out,
+               mapper->sweeps_without_odometry(), mapper->maps_refused());
+  return to_int(maps == 0 && code == ExitCode::ok ? ExitCode::bad_data : code);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  gvom::services::init_logging("gvom-map");
+  gvom::services::Cli cli("gvom-map", "Maps recordings in one process: a folder of layers after each sweep.");
+  Options options;
+  cli.app().add_option("--source", options.sources, "NAME=URI: the recording of one of the vehicle's lidars");
+  cli.app().add_option("--odometry", options.odometry,
+                       "tum:FILE, or static: the vehicle stands at the origin (default: odometry.source)");
+  cli.app().add_option("--out", options.out, "folder for the maps, 000000 and up");
+  cli.app().add_flag("--voxels", options.voxels, "write the fused voxels too");
+  auto config = cli.parse(argc, argv);
+  if (!config) return to_int(config.error());
+  if (options.out.empty()) {
+    spdlog::error("--out DIR is missing");
+    return to_int(ExitCode::usage);
+  }
+  if (const ExitCode code = apply_sources(options.sources, *config); code != ExitCode::ok)
+    return to_int(code);
+  if (options.odometry.empty()) options.odometry = config->odometry.source;
+  if (options.odometry.empty()) {
+    spdlog::error("no odometry: give --odometry tum:FILE or --odometry static");
+    return to_int(ExitCode::usage);
+  }
+  return run(*config, options);
+}

@@ -1,0 +1,21 @@
+// From a vehicle's configuration to a recording with its truth.
+#pragma once
+
+#include <string>
+
+#include <tl/expected.hpp>
+
+#include "services/common/vehicle_config.hpp"
+#include "tools/sim/recording.hpp"
+
+namespace gvom::sim {
+
+/// The simulated lidars of the vehicle, in order of their names: their UDP ports as in `ouster-udp:PORT`,
+/// else 7502 and up; they turn out of step with each other.
+std::vector<LidarModel> make_lidars(const services::VehicleConfig& vehicle, const RecordingOptions& options);
+
+/// Writes the recording and its truth into `directory`, which is made if it is not there.
+tl::expected<void, std::string> simulate(const services::VehicleConfig& vehicle,
+                                         const RecordingOptions& options, const std::string& directory);
+
+}  // namespace gvom::sim
