@@ -8,24 +8,33 @@
 
 namespace gvom::cpu {
 
+/// Rays are cast in batches of at most this many.
+inline constexpr int kRayBatch = 64;
+
+/// Where the rays of a batch end.
+struct RayEnds {
+  int count = 0;
+  std::int64_t to[3][kRayBatch];     ///< Fixed coordinates relative to the grid's origin (core/ray.hpp).
+  std::uint32_t counter[kRayBatch];  ///< Of the end's voxel: PassCounters::index.
+};
+
 /// Pass counters of a whole grid, brick by brick, and which bricks have any. Index of a voxel's counter:
 /// brick slot * 512 + cell. One more brick takes what falls outside of the grid.
 class PassCounters {
  public:
   explicit PassCounters(const Grid& grid);
 
-  /// Adds a pass to every voxel of the grid that the segment goes through except its end's own voxel (R5).
-  /// @param from,to fixed coordinates relative to the grid's origin (core/ray.hpp)
-  void cast(const std::int64_t (&from)[3], const std::int64_t (&to)[3]);
+  /// Adds a pass to every voxel of the grid that the segments go through except each end's own voxel (R5).
+  /// @param from fixed coordinates of where all of them start
+  void cast(const std::int64_t (&from)[3], const RayEnds& ends);
 
-  /// Index of a voxel's counter; the voxel must be inside.
+  /// Index of a voxel's counter; `outside()` where the grid does not reach.
   [[nodiscard]] std::uint32_t index(std::int32_t x, std::int32_t y, std::int32_t z) const {
+    if (!inside(x, y, z)) return outside();
     return (brick_slot(x >> 3, y >> 3, z >> 3, bricks_[0], bricks_[1]) << 9) | cell_in_brick(x, y, z);
   }
-  [[nodiscard]] bool inside(std::int32_t x, std::int32_t y, std::int32_t z) const {
-    return static_cast<std::uint32_t>(x) < static_cast<std::uint32_t>(size_[0]) &&
-           static_cast<std::uint32_t>(y) < static_cast<std::uint32_t>(size_[1]) &&
-           static_cast<std::uint32_t>(z) < static_cast<std::uint32_t>(size_[2]);
+  [[nodiscard]] std::uint32_t outside() const {
+    return static_cast<std::uint32_t>(counters_.size() - kBrickCells);
   }
 
   std::uint32_t* counters() { return counters_.data(); }
@@ -33,12 +42,17 @@ class PassCounters {
 
  private:
   void cast_exactly(const std::int64_t (&from)[3], const std::int64_t (&to)[3]);
+  [[nodiscard]] bool inside(std::int32_t x, std::int32_t y, std::int32_t z) const {
+    return static_cast<std::uint32_t>(x) < static_cast<std::uint32_t>(size_[0]) &&
+           static_cast<std::uint32_t>(y) < static_cast<std::uint32_t>(size_[1]) &&
+           static_cast<std::uint32_t>(z) < static_cast<std::uint32_t>(size_[2]);
+  }
 
   Int3 size_;
   Int3 bricks_;
   std::vector<std::uint32_t> counters_;
   std::vector<std::uint8_t> touched_;
-  std::vector<std::uint32_t> crossed_;  // counters of one axis' crossings of one ray
+  std::vector<std::uint32_t> crossed_;  // counters behind the face crossings of a batch
 };
 
 }  // namespace gvom::cpu

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/cpu/clones.hpp"
 #include "core/ray.hpp"
 
 namespace gvom::cpu {
@@ -32,10 +33,22 @@ struct Transform {
     }
   }
 
-  [[nodiscard]] double coordinate(int i, const Return& p) const {
-    return ((r[i][0] * p.x_m + r[i][1] * p.y_m) + r[i][2] * p.z_m) + t[i];
+  [[nodiscard]] double coordinate(int i, double x, double y, double z) const {
+    return ((r[i][0] * x + r[i][1] * y) + r[i][2] * z) + t[i];
   }
 };
+
+GVOM_CLONES void place_points(const Transform& T_odom_sensor, const Grid& grid, ReturnBatch& points,
+                              RayEnds& ends) {
+  for (int i = 0; i < ends.count; ++i) {
+    double p[3];
+    for (int a = 0; a < 3; ++a) {
+      p[a] = T_odom_sensor.coordinate(a, points.x[i], points.y[i], points.z[i]);
+      ends.to[a][i] = to_fixed(voxel_coordinate(p[a], grid.resolution_m[a]), grid.origin[a]);
+    }
+    points.height_m[i] = static_cast<float>(p[2]) + 0.0f;  // -0 and 0 are one height
+  }
+}
 
 }  // namespace
 
@@ -65,47 +78,52 @@ bool Voxelizer::passes_filter(const Return& r, FilterCounts& counts) const {
   return ++counts.used, true;
 }
 
-void Voxelizer::add_hit(std::uint32_t index, double height_m) {
+void Voxelizer::add_hit(std::uint32_t index, float height_m) {
+  if (index == passes_.outside()) return;
   std::uint32_t& counter = passes_.counters()[index];
-  const float height = static_cast<float>(height_m) + 0.0f;  // -0 and 0 are one height
   if (!(counter & kOccupied)) {
     counter |= kOccupied;
     passes_.touched()[index >> 9] = 1;
     hit_of_[index] = static_cast<std::uint32_t>(hits_.size());
-    hits_.push_back({1, height});
+    hits_.push_back({1, height_m});
     return;
   }
   Hit& hit = hits_[hit_of_[index]];
   ++hit.hits;
-  hit.min_height_m = std::min(hit.min_height_m, height);
+  hit.min_height_m = std::min(hit.min_height_m, height_m);
+}
+
+const Return* Voxelizer::fill_batch(const Return* r, const Return* end) {
+  const std::uint32_t time = r->time_index;
+  ends_.count = 0;
+  for (; r != end && r->time_index == time && ends_.count < kRayBatch; ++r) {
+    if (!passes_filter(*r, filter_counts_)) continue;
+    const int i = ends_.count++;
+    batch_.x[i] = r->x_m, batch_.y[i] = r->y_m, batch_.z[i] = r->z_m;
+  }
+  return r;
 }
 
 BrickMapShape Voxelizer::count(const Sweep& sweep, const std::vector<Pose>& T_odom_base, const Grid& grid) {
   forget();
   filter_counts_ = {};
   if (sweep.returns.empty()) return {brick_slots_, 0, 0};
-  std::uint32_t time = sweep.returns.front().time_index;
-  Transform T_odom_sensor(T_odom_base[time], lidar_.T_base_sensor);
-  std::int64_t from[3];
-  const auto take_pose = [&](std::uint32_t index) {
-    time = index;
-    T_odom_sensor = Transform(T_odom_base[time], lidar_.T_base_sensor);
+  const Return* const end = sweep.returns.data() + sweep.returns.size();
+  for (const Return* r = sweep.returns.data(); r != end;) {
+    const std::uint32_t time = r->time_index;
+    const Transform T_odom_sensor(T_odom_base[time], lidar_.T_base_sensor);
+    std::int64_t from[3];
     for (int a = 0; a < 3; ++a)
       from[a] = to_fixed(voxel_coordinate(T_odom_sensor.t[a], grid.resolution_m[a]), grid.origin[a]);
-  };
-  take_pose(time);
-  for (const Return& r : sweep.returns) {
-    if (!passes_filter(r, filter_counts_)) continue;
-    if (r.time_index != time) take_pose(r.time_index);
-    std::int64_t to[3];
-    double height_m = 0;
-    for (int a = 0; a < 3; ++a) {
-      height_m = T_odom_sensor.coordinate(a, r);
-      to[a] = to_fixed(voxel_coordinate(height_m, grid.resolution_m[a]), grid.origin[a]);
+    while (r != end && r->time_index == time) {
+      r = fill_batch(r, end);
+      place_points(T_odom_sensor, grid, batch_, ends_);
+      for (int i = 0; i < ends_.count; ++i)
+        ends_.counter[i] = passes_.index(fixed_voxel(ends_.to[0][i]), fixed_voxel(ends_.to[1][i]),
+                                         fixed_voxel(ends_.to[2][i]));
+      passes_.cast(from, ends_);
+      for (int i = 0; i < ends_.count; ++i) add_hit(ends_.counter[i], batch_.height_m[i]);
     }
-    passes_.cast(from, to);
-    const std::int32_t x = fixed_voxel(to[0]), y = fixed_voxel(to[1]), z = fixed_voxel(to[2]);
-    if (passes_.inside(x, y, z)) add_hit(passes_.index(x, y, z), height_m);
   }
   BrickMapShape shape{brick_slots_, 0, static_cast<std::uint32_t>(hits_.size())};
   find_touched_bricks(shape);

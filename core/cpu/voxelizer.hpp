@@ -20,6 +20,13 @@ struct FilterCounts {
   std::uint64_t body = 0;
 };
 
+/// Returns that passed the filter, number by number: coordinates in the sensor's frame, height in odom,
+/// metres.
+struct ReturnBatch {
+  double x[kRayBatch], y[kRayBatch], z[kRayBatch];
+  float height_m[kRayBatch];
+};
+
 /// Counts one sweep in private memory, then writes it where the caller wants it. All memory is
 /// allocated at construction.
 class Voxelizer {
@@ -46,7 +53,8 @@ class Voxelizer {
   };
 
   bool passes_filter(const Return& r, FilterCounts& counts) const;
-  void add_hit(std::uint32_t index, double height_m);
+  const Return* fill_batch(const Return* r, const Return* end);
+  void add_hit(std::uint32_t index, float height_m);
   void find_touched_bricks(BrickMapShape& shape);
   std::uint32_t write_hits(const BrickMapArrays& out, std::uint32_t slot, std::int32_t* lookup,
                            std::uint32_t record);
@@ -56,6 +64,8 @@ class Voxelizer {
   VehicleGeometry vehicle_;
   std::uint32_t brick_slots_;
   PassCounters passes_;
+  ReturnBatch batch_;
+  RayEnds ends_;
   std::vector<std::uint32_t> hit_of_;  // per voxel, where kOccupied is set in its counter: index in hits_
   std::vector<Hit> hits_;
   std::vector<std::uint32_t> bricks_;  // slots of the touched bricks, ascending

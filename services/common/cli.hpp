@@ -19,7 +19,7 @@ namespace gvom::services {
 ///     Cli cli("gvom-ingest", "Maps the sweeps of one lidar.");
 ///     std::string lidar;
 ///     cli.app().add_option("--lidar", lidar, "which of the vehicle's lidars")->required();
-///     cli.also_check([&](const VehicleConfig& config) { return find_lidar(config, lidar).map(ignore); });
+///     cli.also_check([&](const auto& config) { return find_lidar(config, lidar).map([](auto) {}); });
 ///     const auto config = cli.parse(argc, argv);
 ///     if (!config) return to_int(config.error());
 class Cli {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <stdexcept>
 
 #include <unistd.h>
@@ -34,8 +33,7 @@ double upper_edge(std::size_t bucket) {
 template <std::size_t N>
 void copy_text(char (&out)[N], std::string_view text) {
   const std::size_t length = std::min(text.size(), N - 1);
-  std::memcpy(out, text.data(), length);
-  std::memset(out + length, 0, N - length);
+  std::fill(std::copy_n(text.data(), length, out), out + N, '\0');
 }
 
 }  // namespace

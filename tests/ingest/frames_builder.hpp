@@ -21,7 +21,9 @@ inline void put_be16(ByteVector& out, std::size_t value) {
   out.push_back(static_cast<std::uint8_t>(value));
 }
 
-inline void append(ByteVector& out, const ByteVector& more) { out.insert(out.end(), more.begin(), more.end()); }
+inline void append(ByteVector& out, const ByteVector& more) {
+  out.insert(out.end(), more.begin(), more.end());
+}
 
 /// How a datagram is sent.
 struct Sent {

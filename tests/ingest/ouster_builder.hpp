@@ -26,8 +26,8 @@ struct OusterSensor {
            R"(, "lidar_origin_to_beam_origin_mm": )" + beam_offset_mm + R"(, "lidar_to_sensor_transform": )" +
            transform + R"(, "data_format": {"columns_per_frame": )" + std::to_string(columns) +
            R"(, "columns_per_packet": )" + std::to_string(columns_per_packet) + R"(, "pixels_per_column": )" +
-           std::to_string(beams) + R"(, "column_window": )" + window + R"(, "udp_profile_lidar": ")" + profile +
-           "\"}}";
+           std::to_string(beams) + R"(, "column_window": )" + window + R"(, "udp_profile_lidar": ")" +
+           profile + "\"}}";
   }
 };
 
@@ -45,7 +45,9 @@ struct Column {
 };
 
 /// The time of a column in these packets.
-inline std::int64_t column_time_ns(int frame, int id) { return 1'000'000'000LL + frame * 100'000'000LL + id * 1'000'000LL; }
+inline std::int64_t column_time_ns(int frame, int id) {
+  return 1'000'000'000LL + frame * 100'000'000LL + id * 1'000'000LL;
+}
 
 inline void put_pixel(ByteVector& out, const OusterSensor& sensor, const Column& column, std::size_t beam) {
   const std::uint32_t range = column.ranges.at(beam);
@@ -84,10 +86,12 @@ inline ByteVector ouster_packet(const OusterSensor& sensor, int frame, const std
 }
 
 /// A packet whose pixels all have the same range.
-inline ByteVector plain_packet(const OusterSensor& sensor, int frame, int first_id, std::uint32_t range = 5000) {
+inline ByteVector plain_packet(const OusterSensor& sensor, int frame, int first_id,
+                               std::uint32_t range = 5000) {
   std::vector<Column> columns;
   for (int i = 0; i < sensor.columns_per_packet; ++i) {
-    columns.push_back({first_id + i, std::vector<std::uint32_t>(static_cast<std::size_t>(sensor.beams), range)});
+    columns.push_back(
+        {first_id + i, std::vector<std::uint32_t>(static_cast<std::size_t>(sensor.beams), range)});
   }
   return ouster_packet(sensor, frame, columns);
 }

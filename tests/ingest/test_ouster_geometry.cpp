@@ -108,8 +108,10 @@ TEST_CASE("the tables agree with the formula for every pixel of a real sensor") 
       const double x = (r - n) * std::cos(t + a) * std::cos(p) + n * std::cos(t);
       const double y = (r - n) * std::sin(t + a) * std::cos(p) + n * std::sin(t);
       const double z = (r - n) * std::sin(p);
-      const auto got = geometry.project(geometry.columns[static_cast<std::size_t>(column)], geometry.beams[beam], r);
-      worst = std::max(worst, std::hypot(got.x_m + x / 1000, got.y_m + y / 1000, got.z_m - (z + 36.18) / 1000));
+      const auto got =
+          geometry.project(geometry.columns[static_cast<std::size_t>(column)], geometry.beams[beam], r);
+      worst =
+          std::max(worst, std::hypot(got.x_m + x / 1000, got.y_m + y / 1000, got.z_m - (z + 36.18) / 1000));
     }
   }
   CHECK(worst < 1e-12);

@@ -55,7 +55,8 @@ TEST_CASE("the nested layout says the same as the flat one") {
 }
 
 TEST_CASE("missing keys: the documented values stand in, each with a warning") {
-  const auto bare = read(R"({"beam_altitude_angles": [1], "beam_azimuth_angles": [3], "lidar_mode": "512x20"})");
+  const auto bare =
+      read(R"({"beam_altitude_angles": [1], "beam_azimuth_angles": [3], "lidar_mode": "512x20"})");
   REQUIRE(bare.metadata.has_value());
   CHECK(bare.warnings.size() == 3);
   CHECK(bare.metadata->layout.name == "LEGACY");
@@ -96,7 +97,8 @@ TEST_CASE("what cannot be right is refused, naming file and key") {
   sensor.beam_offset_mm = "\"x\"";
   check_error(sensor.json(), "lidar_origin_to_beam_origin_mm");
   check_error(R"({"beam_altitude_angles": [1], "beam_azimuth_angles": [3]})", "lidar_mode: missing");
-  check_error(R"({"beam_altitude_angles": [1], "beam_azimuth_angles": [3], "lidar_mode": "fast"})", "got 'fast'");
+  check_error(R"({"beam_altitude_angles": [1], "beam_azimuth_angles": [3], "lidar_mode": "fast"})",
+              "got 'fast'");
 }
 
 TEST_CASE("a profile that is not supported is refused by name") {

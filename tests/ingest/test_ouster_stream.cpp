@@ -12,7 +12,8 @@ namespace {
 /// A recording in the making: 16 columns a frame, packets of 4 columns, 2 beams.
 class Stream {
  public:
-  explicit Stream(OusterSensor sensor = {}) : sensor_(std::move(sensor)), pcap_(folder_.path() + "/stream.pcap") {}
+  explicit Stream(OusterSensor sensor = {})
+      : sensor_(std::move(sensor)), pcap_(folder_.path() + "/stream.pcap") {}
 
   Stream& packet(int frame_id, int first_column, const Sent& sent = {}) {
     pcap_.add(frame(plain_packet(sensor_, frame_id, first_column), sent));
@@ -27,7 +28,8 @@ class Stream {
     return *this;
   }
 
-  std::vector<Sweep> play(double min_fraction = 0.5, std::size_t max_returns = 1000, const std::string& more = "") {
+  std::vector<Sweep> play(double min_fraction = 0.5, std::size_t max_returns = 1000,
+                          const std::string& more = "") {
     const std::string meta = write_text(folder_.path() + "/meta.json", sensor_.json());
     source_ = open("ouster:" + pcap_.write() + "?meta=" + meta + more, {min_fraction, max_returns});
     return all_sweeps(*source_);
@@ -56,7 +58,8 @@ TEST_CASE("frames become sweeps; the stamp is the time of the last return") {
   CHECK(stream.counters().sweeps == 2);
 }
 
-TEST_CASE("columns without returns at the end do not move the stamp; without any return it is the last column's") {
+TEST_CASE(
+    "columns without returns at the end do not move the stamp; without any return it is the last column's") {
   Stream stream;
   const OusterSensor& sensor = stream.sensor();
   for (int column = 0; column < 16; column += 4) {
@@ -87,7 +90,8 @@ TEST_CASE("a packet out of order within its frame is used") {
 
 TEST_CASE("a packet that comes twice is used once, also the last one of a frame") {
   Stream stream;
-  const auto sweeps = stream.packet(1, 0).packet(1, 0).packet(1, 4).packet(1, 8).packet(1, 12).packet(1, 12).play();
+  const auto sweeps =
+      stream.packet(1, 0).packet(1, 0).packet(1, 4).packet(1, 8).packet(1, 12).packet(1, 12).play();
   REQUIRE(sweeps.size() == 1);
   CHECK(sweeps[0].returns.size() == 32);
   CHECK(stream.counters().duplicate_packets == 2);
@@ -95,7 +99,15 @@ TEST_CASE("a packet that comes twice is used once, also the last one of a frame"
 
 TEST_CASE("a packet of the frame before is late") {
   Stream stream;
-  const auto sweeps = stream.packet(1, 0).packet(1, 4).packet(1, 12).packet(2, 0).packet(1, 8).packet(2, 4).packet(2, 8).packet(2, 12).play();
+  const auto sweeps = stream.packet(1, 0)
+                          .packet(1, 4)
+                          .packet(1, 12)
+                          .packet(2, 0)
+                          .packet(1, 8)
+                          .packet(2, 4)
+                          .packet(2, 8)
+                          .packet(2, 12)
+                          .play();
   REQUIRE(sweeps.size() == 2);
   CHECK_FALSE(sweeps[0].complete);
   CHECK(sweeps[0].returns.size() == 24);
@@ -127,7 +139,8 @@ TEST_CASE("columns that are not valid or not in the window are counted") {
   sensor.profile = "RNG19_RFL8_SIG16_NIR16";
   sensor.window = "[0, 7]";
   Stream stream(sensor);
-  std::vector<Column> columns = {{0, {1000, 1000}}, {1, {1000, 1000}, {}, false}, {9, {1000, 1000}}, {60000, {1, 1}}};
+  std::vector<Column> columns = {
+      {0, {1000, 1000}}, {1, {1000, 1000}, {}, false}, {9, {1000, 1000}}, {60000, {1, 1}}};
   const auto sweeps = stream.raw(frame(ouster_packet(sensor, 1, columns))).play(0.0);
   REQUIRE(sweeps.size() == 1);
   CHECK(sweeps[0].returns.size() == 2);
@@ -138,10 +151,10 @@ TEST_CASE("columns that are not valid or not in the window are counted") {
 TEST_CASE("another size, another sender, another protocol, a far frame: foreign, and the sweep is whole") {
   Stream stream;
   stream.packet(1, 0).packet(1, 4);
-  stream.raw(frame(ByteVector(48)));                           // an IMU packet
-  stream.packet(1, 8, {2, 7502, 1});                           // another sensor
-  stream.raw(ByteVector(60, 0));                               // no IP
-  stream.packet(20000, 0);                                     // a frame of another time
+  stream.raw(frame(ByteVector(48)));  // an IMU packet
+  stream.packet(1, 8, {2, 7502, 1});  // another sensor
+  stream.raw(ByteVector(60, 0));      // no IP
+  stream.packet(20000, 0);            // a frame of another time
   const auto sweeps = stream.packet(1, 8).packet(1, 12).play();
   REQUIRE(sweeps.size() == 1);
   CHECK(sweeps[0].complete);
@@ -160,11 +173,11 @@ TEST_CASE("packets to other ports are foreign if a port is asked for") {
 TEST_CASE("a stream that starts again is taken up again: a reboot, a looped recording") {
   Stream stream;
   stream.whole_frame(20000).whole_frame(20001);
-  for (int id = 1; id <= 4; ++id) stream.whole_frame(id);   // a new numbering
-  for (int id = 1; id <= 4; ++id) stream.whole_frame(id);   // the same again
+  for (int id = 1; id <= 4; ++id) stream.whole_frame(id);  // a new numbering
+  for (int id = 1; id <= 4; ++id) stream.whole_frame(id);  // the same again
   const auto sweeps = stream.play();
-  // Of each beginning, seven packets tell that it is one: four of the first frame, three of the second. The eighth
-  // is used, but is not enough of a sweep.
+  // Of each beginning, seven packets tell that it is one: four of the first frame, three of the second. The
+  // eighth is used, but is not enough of a sweep.
   CHECK(sweeps.size() == 2 + 2 + 2);
   CHECK(stream.counters().foreign_packets == 7);
   CHECK(stream.counters().late_packets == 7);
@@ -173,7 +186,11 @@ TEST_CASE("a stream that starts again is taken up again: a reboot, a looped reco
 
 TEST_CASE("a sensor that got another address is taken up again") {
   Stream stream;
-  const auto sweeps = stream.whole_frame(1).whole_frame(2, {9, 7502, 1}).whole_frame(3, {9, 7502, 1}).whole_frame(4, {9, 7502, 1}).play();
+  const auto sweeps = stream.whole_frame(1)
+                          .whole_frame(2, {9, 7502, 1})
+                          .whole_frame(3, {9, 7502, 1})
+                          .whole_frame(4, {9, 7502, 1})
+                          .play();
   CHECK(sweeps.size() == 2);
   CHECK(stream.counters().foreign_packets == 7);
 }

@@ -45,7 +45,8 @@ TEST_CASE("every link type gives the same payload, with its nanoseconds") {
   CHECK(payload_of(ethernet(prefixed({0, 5, 0x08, 0x00}, ip), 0x8100), 1) == payload);  // VLAN
   CHECK(payload_of(ethernet(prefixed({0, 5, 0x81, 0, 0, 6, 0x08, 0x00}, ip), 0x88A8), 1) == payload);
   CHECK(payload_of(prefixed({0, 0, 0, 1, 0, 6, 0, 0, 0, 0, 0, 0, 0, 0, 0x08, 0x00}, ip), 113) == payload);
-  CHECK(payload_of(prefixed({0x08, 0, 0, 0, 0, 0, 0, 1, 0, 1, 0, 6, 0, 0, 0, 0, 0, 0, 0, 0}, ip), 276) == payload);
+  CHECK(payload_of(prefixed({0x08, 0, 0, 0, 0, 0, 0, 1, 0, 1, 0, 6, 0, 0, 0, 0, 0, 0, 0, 0}, ip), 276) ==
+        payload);
   CHECK(payload_of(ip, 101) == payload);
   CHECK(payload_of(prefixed({2, 0, 0, 0}, ip), 0) == payload);
   CHECK(payload_of(ethernet(ipv6(udp(payload)), 0x86DD), 1) == payload);
@@ -69,9 +70,9 @@ TEST_CASE("fragments that do not fit together are given up, not joined") {
   PcapWriter pcap(folder.path() + "/a.pcap");
   const ByteVector body(16, 7);
   pcap.add(ethernet(ipv4(body, {1, 1, 5}, 0x2000 | 8)));
-  pcap.add(ethernet(ipv4(body, {1, 1, 5}, 2)));                       // ends before the first one begins
-  pcap.add(ethernet(ipv4(ByteVector(13, 7), {1, 1, 6}, 0x2000)));     // not a multiple of 8
-  pcap.add(ethernet(ipv4(ByteVector(800, 7), {1, 1, 7}, 0x1FFF)));    // beyond 64 KiB
+  pcap.add(ethernet(ipv4(body, {1, 1, 5}, 2)));                     // ends before the first one begins
+  pcap.add(ethernet(ipv4(ByteVector(13, 7), {1, 1, 6}, 0x2000)));   // not a multiple of 8
+  pcap.add(ethernet(ipv4(ByteVector(800, 7), {1, 1, 7}, 0x1FFF)));  // beyond 64 KiB
   for (std::uint16_t id = 100; id < 120; ++id) pcap.add(ethernet(ipv4(body, {1, 1, id}, 0x2000)));
   SourceState state;
   auto reader = PcapReader::open(pcap.write(), std::nullopt, state);
@@ -88,9 +89,12 @@ TEST_CASE("files that are no recording are refused with path and reason") {
   const auto error_of = [&](const std::string& path) { return open_error("ouster:" + path + meta); };
   CHECK(error_of(folder.path() + "/none.pcap").find("none.pcap: No such file") != std::string::npos);
   CHECK(error_of(write_text(folder.path() + "/empty.pcap", "")).find("not a pcap file") != std::string::npos);
-  CHECK(error_of(write_text(folder.path() + "/text.pcap", "Hello, I am no capture.")).find("not a pcap file") != std::string::npos);
+  CHECK(
+      error_of(write_text(folder.path() + "/text.pcap", "Hello, I am no capture.")).find("not a pcap file") !=
+      std::string::npos);
   CHECK(error_of(folder.path()).find("not a pcap file") != std::string::npos);
-  CHECK(error_of(PcapWriter(folder.path() + "/header.pcap").write()).find("holds no packets") != std::string::npos);
+  CHECK(error_of(PcapWriter(folder.path() + "/header.pcap").write()).find("holds no packets") !=
+        std::string::npos);
   PcapWriter wifi(folder.path() + "/wifi.pcap", 105);
   wifi.add(ByteVector(100));
   CHECK(error_of(wifi.write()).find("link type") != std::string::npos);

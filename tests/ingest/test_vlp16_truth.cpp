@@ -36,10 +36,11 @@ void add_packets(const std::uint8_t* cdr, std::size_t size, PcapWriter& pcap) {
 void add_all_scans(const std::string& database, PcapWriter& pcap) {
   sqlite3* db = nullptr;
   // immutable: the folder of the recordings may be read-only.
-  REQUIRE(sqlite3_open_v2(("file:" + database + "?immutable=1").c_str(), &db, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI,
-                          nullptr) == SQLITE_OK);
+  REQUIRE(sqlite3_open_v2(("file:" + database + "?immutable=1").c_str(), &db,
+                          SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr) == SQLITE_OK);
   sqlite3_stmt* query = nullptr;
-  REQUIRE(sqlite3_prepare_v2(db, "SELECT data FROM messages ORDER BY timestamp", -1, &query, nullptr) == SQLITE_OK);
+  REQUIRE(sqlite3_prepare_v2(db, "SELECT data FROM messages ORDER BY timestamp", -1, &query, nullptr) ==
+          SQLITE_OK);
   while (sqlite3_step(query) == SQLITE_ROW) {
     add_packets(static_cast<const std::uint8_t*>(sqlite3_column_blob(query, 0)),
                 static_cast<std::size_t>(sqlite3_column_bytes(query, 0)), pcap);
@@ -56,16 +57,16 @@ double distance_to_nearest(const Sweep& sweep, const Return& p) {
   return best;
 }
 
-/// Of the truth's points, those whose azimuth was interpolated. Its decoder leaves that out in the last pair of
-/// blocks of each packet (the recording is in dual return mode) and for returns that only the second block of a
-/// pair has, so that these lie up to 0.4 degrees away from where the laser pointed.
+/// Of the truth's points, those whose azimuth its decoder interpolated right. The recording is in dual return
+/// mode, and that decoder holds the azimuth within the last pair of blocks of each packet, and takes it from
+/// the next pair for a return that only the second block of a pair has: such points lie up to 0.4 degrees
+/// from where the laser pointed.
 std::vector<Return> interpolated_points(const ingest::PcdCloud& cloud) {
-  constexpr std::int64_t kLastPairNs = 10 * 48 * 2304;  // ten blocks of 48 laser slots of 2.304 us
-  constexpr std::int64_t kSameReturnTwice = 6;
+  constexpr std::int64_t kBlockNs = 48 * 2304;  // as it counts them: 48 laser slots of 2.304 us each
   std::vector<Return> out;
   for (std::size_t i = 0; i < cloud.points; ++i) {
-    const bool interpolated = cloud.integer(*cloud.find("return_type"), i) == kSameReturnTwice &&
-                              cloud.integer(*cloud.find("time_stamp"), i) < kLastPairNs;
+    const std::int64_t block = cloud.integer(*cloud.find("time_stamp"), i) / kBlockNs;
+    const bool interpolated = block % 2 == 0 && block != 10;
     if (!interpolated) continue;
     out.push_back({cloud.number(*cloud.find("x"), i), cloud.number(*cloud.find("y"), i),
                    cloud.number(*cloud.find("z"), i), 0});
@@ -89,7 +90,8 @@ TEST_CASE("VLP-16 returns agree with an independent decoder's to a centimetre") 
   std::ifstream file(*data + "/velodyne/vlp16_ros2_decoded.pcd", std::ios::binary);
   const std::vector<char> bytes{std::istreambuf_iterator<char>(file), {}};
   std::vector<std::uint8_t> scratch;
-  const auto cloud = ingest::parse_pcd({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, scratch);
+  const auto cloud =
+      ingest::parse_pcd({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, scratch);
   REQUIRE(cloud.has_value());
   CHECK(std::abs(static_cast<int>(sweep.returns.size()) - static_cast<int>(cloud->points)) < 100);
 
@@ -99,5 +101,5 @@ TEST_CASE("VLP-16 returns agree with an independent decoder's to a centimetre") 
   for (const Return& point : truth) distances.push_back(distance_to_nearest(sweep, point));
   std::sort(distances.begin(), distances.end());
   CHECK(distances[distances.size() / 2] < 0.001);
-  CHECK(distances.back() < 0.01);
+  CHECK(distances.back() < 0.01);  // 0.002 in fact
 }

@@ -1,0 +1,275 @@
+#include "services/fusion/fusion_node.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+
+#include "ipc/text.hpp"
+#include "services/common/bus/core_types.hpp"
+#include "services/common/bus/pool_spec.hpp"
+
+namespace gvom::fusion {
+
+namespace {
+
+constexpr std::chrono::milliseconds kLongestWait{100};
+constexpr std::int64_t kProgressPeriod_ns = 250'000'000;  // also while idle, so that a replay sees us
+constexpr std::int64_t kStale_ns = 1'000'000'000;
+
+std::int64_t period_ns(double rate_hz) {
+  return static_cast<std::int64_t>(1e9 / rate_hz);
+}
+
+}  // namespace
+
+ipc::Expected<Bus> Bus::open(ipc::Runtime& runtime, const services::VehicleConfig& config) {
+  auto waiter = ipc::Waiter::create(runtime);
+  if (!waiter) return tl::unexpected(waiter.error());
+  auto inbox = MapInbox::open(runtime, *waiter, config);
+  if (!inbox) return tl::unexpected(inbox.error());
+  auto layers = ipc::LayersPublisher::open(runtime);
+  if (!layers) return tl::unexpected(layers.error());
+  auto voxels = ipc::BrickMapPublisher::voxel_map(runtime, voxel_map_capacity(services::pool_spec(config)));
+  if (!voxels) return tl::unexpected(voxels.error());
+  auto progress = ipc::Publisher<ipc::Progress>::open(runtime);
+  if (!progress) return tl::unexpected(progress.error());
+  auto health = ipc::Publisher<ipc::Health>::open(runtime);
+  if (!health) return tl::unexpected(health.error());
+  return Bus{std::move(*waiter), std::move(*inbox),    std::move(*layers),
+             std::move(*voxels), std::move(*progress), std::move(*health)};
+}
+
+FusionCounters::FusionCounters(services::HealthReport& health)
+    : maps_in(health.counter("maps_in")),
+      maps_fused(health.counter("maps_fused")),
+      maps_lost(health.counter("maps_lost")),
+      drop_map_too_old(health.counter("drop_map_too_old")),
+      drop_map_duplicate(health.counter("drop_map_duplicate")),
+      drop_map_wrong_grid(health.counter("drop_map_wrong_grid")),
+      drop_map_old_epoch(health.counter("drop_map_old_epoch")),
+      drop_map_refused(health.counter("drop_map_refused")),
+      layers_out(health.counter("layers_out")),
+      drop_layers_no_chunk(health.counter("drop_layers_no_chunk")),
+      voxel_maps_out(health.counter("voxel_maps_out")),
+      drop_voxels_no_chunk(health.counter("drop_voxels_no_chunk")),
+      epochs(health.counter("epochs")),
+      fuse(health.stage("fuse")),
+      make_layers(health.stage("make_layers")),
+      received_to_layers(health.stage("received_to_layers")) {}
+
+FusionNode::FusionNode(const services::VehicleConfig& config, ipc::Runtime& runtime, Bus& bus,
+                       services::Lifecycle& lifecycle)
+    : config_(config),
+      bus_(bus),
+      lifecycle_(lifecycle),
+      broker_(runtime),
+      health_(runtime.name()),
+      counters_(health_),
+      fuser_(config.mapper) {
+  health_.set_backend("cpu");
+  lifecycle_.on_stop([this] { bus_.waiter.wake(); });
+}
+
+FusionNode::~FusionNode() {
+  lifecycle_.on_stop({});
+}
+
+services::ExitCode FusionNode::run() {
+  services::notify_ready();
+  while (!lifecycle_.stopping()) {
+    fuse_arrived();
+    const std::int64_t now_ns = ipc::monotonic_ns();
+    if (config_.fusion.rate_hz > 0 && tick_due(now_ns)) publish_layers();
+    publish_progress();
+    publish_health();
+    broker_.check();
+    auto timeout = kLongestWait;
+    if (config_.fusion.rate_hz > 0 && fresh_)
+      timeout = std::clamp(std::chrono::milliseconds((next_tick_ns_ - now_ns) / 1'000'000 + 1),
+                           std::chrono::milliseconds(0), kLongestWait);
+    bus_.waiter.wait(timeout);
+  }
+  services::notify_stopping();
+  health_.set_state(ipc::HealthState::stopping);
+  publish_health();
+  spdlog::info("{} maps fused, {} layers published", counters_.maps_fused, counters_.layers_out);
+  return services::ExitCode::ok;
+}
+
+void FusionNode::fuse_arrived() {
+  while (const auto map = bus_.inbox.take()) {
+    fuse(*map);
+    if (config_.fusion.rate_hz <= 0 ? fresh_ : tick_due(ipc::monotonic_ns())) publish_layers();
+    publish_progress();
+    if (lifecycle_.stopping()) return;
+  }
+  if (const auto refusal = bus_.inbox.new_refusal()) spdlog::error("{}", *refusal);
+}
+
+void FusionNode::fuse(const ArrivedMap& map) {
+  const ipc::BrickMap& header = map.sample->header();
+  ++counters_.maps_in;
+  progress_news_ = true;
+  if (header.header.epoch > epoch_) begin_epoch(header.header.epoch);
+  if (header.header.epoch < epoch_) {
+    ++counters_.drop_map_old_epoch;
+    return bus_.inbox.release(map.token);
+  }
+  const std::int64_t begin_ns = ipc::monotonic_ns();
+  const AddResult result = fuser_.add({services::view_of(*map.sample), map.lidar, map.token});
+  if (result != AddResult::added) {
+    count_refusal(result);
+    return bus_.inbox.release(map.token);
+  }
+  fused_ns_ = ipc::monotonic_ns();
+  counters_.fuse.record_ns(fused_ns_ - begin_ns);
+  ++counters_.maps_fused;
+  fresh_ = true;
+  if (fuser_.fused().window().maps().front().token == map.token) newest_ = header;
+  for (const WindowMap& left : fuser_.fused().window().left()) bus_.inbox.release(left.token);
+}
+
+void FusionNode::begin_epoch(std::uint64_t epoch) {
+  if (epoch_ != 0) {
+    ++counters_.epochs;
+    spdlog::info("the odometry's clock begins anew: the window is emptied");
+  }
+  epoch_ = epoch;
+  fuser_.reset();
+  fresh_ = false;
+  for (const WindowMap& left : fuser_.fused().window().left()) bus_.inbox.release(left.token);
+}
+
+void FusionNode::count_refusal(AddResult result) {
+  switch (result) {
+    case AddResult::too_old:
+      ++counters_.drop_map_too_old;
+      break;
+    case AddResult::duplicate:
+      ++counters_.drop_map_duplicate;
+      break;
+    case AddResult::wrong_grid:
+      ++counters_.drop_map_wrong_grid;
+      log_drops_(spdlog::level::err,
+                 "a map of another grid came: do all processes have the same configuration?");
+      break;
+    case AddResult::added:
+      break;
+  }
+}
+
+bool FusionNode::tick_due(std::int64_t now_ns) const {
+  return fresh_ && now_ns >= next_tick_ns_;
+}
+
+void FusionNode::publish_layers() {
+  const std::int64_t begin_ns = ipc::monotonic_ns();
+  if (config_.fusion.rate_hz > 0)
+    next_tick_ns_ = std::max(next_tick_ns_ + period_ns(config_.fusion.rate_hz), begin_ns);
+  fresh_ = false;
+  const LayerMoment moment = fuser_.moment();
+  auto writer = bus_.layers.loan(moment.grid.size[0], moment.grid.size[2]);
+  if (!writer) {
+    ++counters_.drop_layers_no_chunk;
+    log_drops_(spdlog::level::err, "layers are lost: {}", writer.error().message);
+    return;
+  }
+  fuser_.make_layers(services::arrays_of(*writer));
+  ipc::Layers& header = writer->header();
+  services::set_frame(moment.grid, moment.T_odom_base, header);
+  fill_lidars(header);
+  header.mono_received_ns = newest_.mono_received_ns;
+  header.mono_mapped_ns = newest_.mono_mapped_ns;
+  header.mono_map_published_ns = newest_.mono_published_ns;
+  header.mono_fused_ns = fused_ns_;
+  bus_.layers.publish(std::move(*writer), moment.stamp_ns, epoch_);
+  last_layers_ns_ = ipc::monotonic_ns();
+  counters_.make_layers.record_ns(last_layers_ns_ - begin_ns);
+  counters_.received_to_layers.record_ns(last_layers_ns_ - newest_.mono_received_ns);
+  ++counters_.layers_out;
+  health_.count_product();
+  services::notify_watchdog();
+  publish_voxels();
+}
+
+void FusionNode::fill_lidars(ipc::Layers& header) const {
+  const Window& window = fuser_.fused().window();
+  header.maps_in_window = static_cast<std::uint32_t>(window.maps().size());
+  header.lidar_count = static_cast<std::uint32_t>(bus_.inbox.lidars().size());
+  for (std::size_t i = 0; i < bus_.inbox.lidars().size(); ++i) {
+    const MapInbox::Lidar& lidar = bus_.inbox.lidars()[i];
+    ipc::LidarStatus& status = header.lidars[i];
+    ipc::set_text(status.name, lidar.name);
+    status.newest_stamp_ns = lidar.newest_stamp_ns;
+    status.maps_in_window = static_cast<std::uint32_t>(window.count(static_cast<int>(i)));
+    status.missing = status.maps_in_window == 0 ? 1 : 0;
+    status.maps_received = lidar.maps.counters().received;
+    status.maps_lost = lidar.maps.counters().lost;
+  }
+}
+
+void FusionNode::publish_voxels() {
+  const std::int64_t now_ns = ipc::monotonic_ns();
+  if (config_.fusion.voxel_rate_hz <= 0 || now_ns < next_voxels_ns_ || !bus_.voxels.has_subscribers()) return;
+  next_voxels_ns_ = now_ns + period_ns(config_.fusion.voxel_rate_hz);
+  const BrickMapShape shape = fuser_.fused().shape();
+  auto writer = bus_.voxels.loan(shape.brick_slots, shape.brick_count, shape.record_count);
+  if (!writer) {
+    ++counters_.drop_voxels_no_chunk;
+    log_drops_(spdlog::level::err, "a voxel map is lost: {}", writer.error().message);
+    return;
+  }
+  const LayerMoment moment = fuser_.moment();
+  services::set_frame(moment.grid, moment.T_odom_base, writer->header());
+  writer->header().complete = 1;
+  fuser_.fused().write(services::arrays_of(*writer));
+  bus_.voxels.publish(std::move(*writer), moment.stamp_ns, epoch_);
+  ++counters_.voxel_maps_out;
+}
+
+void FusionNode::publish_progress() {
+  const std::int64_t now_ns = ipc::monotonic_ns();
+  if (!progress_news_ && now_ns < next_progress_ns_) return;
+  ipc::Progress progress{};
+  ipc::set_text(progress.reader, "fusion");
+  progress.lidar_count = static_cast<std::uint32_t>(bus_.inbox.lidars().size());
+  for (std::size_t i = 0; i < bus_.inbox.lidars().size(); ++i) {
+    ipc::set_text(progress.taken[i].lidar, bus_.inbox.lidars()[i].name);
+    progress.taken[i].sequence = bus_.inbox.lidars()[i].taken_sequence;
+  }
+  if (!bus_.progress.publish(progress, newest_.header.stamp_ns, epoch_)) return;
+  progress_news_ = false;
+  next_progress_ns_ = now_ns + kProgressPeriod_ns;
+}
+
+void FusionNode::publish_health() {
+  const std::int64_t now_ns = ipc::monotonic_ns();
+  const bool stopping = health_.state() == ipc::HealthState::stopping;
+  if (!health_.due(now_ns) && !stopping) return;
+  counters_.maps_lost = 0;
+  counters_.drop_map_refused = 0;
+  for (const MapInbox::Lidar& lidar : bus_.inbox.lidars()) {
+    counters_.maps_lost += lidar.maps.counters().lost;
+    counters_.drop_map_refused += lidar.maps.counters().refused();
+  }
+  if (!stopping) {
+    if (last_layers_ns_ == 0)
+      health_.set_state(ipc::HealthState::starting, "no maps yet");
+    else if (now_ns - last_layers_ns_ < kStale_ns)
+      health_.set_state(ipc::HealthState::ok);
+    else
+      health_.set_state(ipc::HealthState::degraded, "no maps: the layers are old");
+    services::notify_watchdog();
+  }
+  const ipc::Health& health = health_.take(now_ns);
+  char status[96];
+  std::snprintf(status, sizeof status, "%.1f layers/s, %zu maps in the window", health.rate_hz,
+                fuser_.fused().window().maps().size());
+  services::notify_status(status);
+  if (!bus_.health.publish(health, newest_.header.stamp_ns, epoch_))
+    log_drops_(spdlog::level::warn, "a health message is lost");
+}
+
+}  // namespace gvom::fusion

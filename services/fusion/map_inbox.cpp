@@ -1,0 +1,51 @@
+#include "services/fusion/map_inbox.hpp"
+
+#include <algorithm>
+
+namespace gvom::fusion {
+
+ipc::Expected<MapInbox> MapInbox::open(ipc::Runtime& runtime, ipc::Waiter& waiter,
+                                       const services::VehicleConfig& config) {
+  // A full window, and the map in hand.
+  MapInbox inbox(config.lidars.size() * static_cast<std::size_t>(config.mapper.window.buffer_size) + 1);
+  for (const services::LidarConfig& lidar : config.lidars) {
+    auto maps = ipc::BrickMapSubscriber::buffer_map(runtime, lidar.name);
+    if (!maps) return tl::unexpected(maps.error());
+    if (auto added = waiter.add(*maps); !added) return tl::unexpected(added.error());
+    inbox.lidars_.push_back({lidar.name, std::move(*maps)});
+  }
+  return inbox;
+}
+
+std::size_t MapInbox::free_slot() const {
+  const auto free = std::find_if(held_.begin(), held_.end(), [](const auto& sample) { return !sample; });
+  return static_cast<std::size_t>(free - held_.begin());
+}
+
+std::optional<ArrivedMap> MapInbox::take() {
+  for (std::size_t tries = 0; tries < lidars_.size(); ++tries) {
+    const std::size_t index = turn_;
+    turn_ = (turn_ + 1) % lidars_.size();
+    Lidar& lidar = lidars_[index];
+    auto sample = lidar.maps.take();
+    if (!sample) continue;
+    const std::size_t token = free_slot();
+    held_[token] = std::move(*sample);
+    lidar.taken_sequence = held_[token]->header().header.sequence;
+    lidar.newest_stamp_ns = held_[token]->header().header.stamp_ns;
+    return ArrivedMap{static_cast<int>(index), token, &*held_[token]};
+  }
+  return std::nullopt;
+}
+
+void MapInbox::release(std::uint64_t token) {
+  held_[token].reset();
+}
+
+std::optional<std::string> MapInbox::new_refusal() {
+  for (Lidar& lidar : lidars_)
+    if (auto refusal = lidar.maps.new_refusal()) return "lidar " + lidar.name + ": " + *refusal;
+  return std::nullopt;
+}
+
+}  // namespace gvom::fusion

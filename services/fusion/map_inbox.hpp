@@ -1,0 +1,56 @@
+// The buffer maps of all lidars as they come, and those that the window still needs, where they lie.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/window.hpp"
+#include "ipc/brick_map.hpp"
+#include "ipc/messages.hpp"
+#include "ipc/runtime.hpp"
+#include "ipc/waiter.hpp"
+#include "services/common/vehicle_config.hpp"
+
+namespace gvom::fusion {
+
+/// A map that came, held in shared memory until it is released.
+struct ArrivedMap {
+  int lidar;
+  std::uint64_t token;
+  const ipc::BrickMapSample* sample;
+};
+
+class MapInbox {
+ public:
+  /// A subscriber for each lidar, added to `waiter`.
+  static ipc::Expected<MapInbox> open(ipc::Runtime& runtime, ipc::Waiter& waiter,
+                                      const services::VehicleConfig& config);
+
+  /// The next unread map; lidars take turns. Nothing if none is there. The map must be released, or kept
+  /// until its token leaves the window.
+  std::optional<ArrivedMap> take();
+  void release(std::uint64_t token);
+
+  /// How far each lidar's maps were taken, for Progress and Layers.
+  struct Lidar {
+    std::string name;
+    ipc::BrickMapSubscriber maps;
+    std::uint64_t taken_sequence = 0;
+    std::int64_t newest_stamp_ns = 0;
+  };
+  [[nodiscard]] const std::vector<Lidar>& lidars() const { return lidars_; }
+  /// Why a message was refused, each reason once.
+  std::optional<std::string> new_refusal();
+
+ private:
+  explicit MapInbox(std::size_t slots) : held_(slots) {}
+  [[nodiscard]] std::size_t free_slot() const;
+
+  std::vector<Lidar> lidars_;
+  std::vector<std::optional<ipc::BrickMapSample>> held_;  // index: token
+  std::size_t turn_ = 0;
+};
+
+}  // namespace gvom::fusion

@@ -1,0 +1,252 @@
+#include "services/ingest/ingest_node.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <cstdio>
+
+#include "ipc/text.hpp"
+#include "services/common/bus/core_types.hpp"
+#include "services/common/bus/pool_spec.hpp"
+
+namespace gvom::ingest {
+
+using services::ExitCode;
+
+namespace {
+
+constexpr std::chrono::milliseconds kLongestWait{100};
+constexpr std::int64_t kProgressPeriod_ns = 250'000'000;  // also while idle, so that a replay sees us
+
+}  // namespace
+
+ipc::Expected<Bus> Bus::open(ipc::Runtime& runtime, const services::VehicleConfig& config,
+                             const std::string& lidar) {
+  auto odometry = ipc::Subscriber<ipc::Odometry>::open(runtime);
+  if (!odometry) return tl::unexpected(odometry.error());
+  auto progress = ipc::Subscriber<ipc::Progress>::open(runtime);
+  if (!progress) return tl::unexpected(progress.error());
+  auto maps =
+      ipc::BrickMapPublisher::buffer_map(runtime, lidar, buffer_map_capacity(services::pool_spec(config)));
+  if (!maps) return tl::unexpected(maps.error());
+  auto own_progress = ipc::Publisher<ipc::Progress>::open(runtime);
+  if (!own_progress) return tl::unexpected(own_progress.error());
+  auto health = ipc::Publisher<ipc::Health>::open(runtime);
+  if (!health) return tl::unexpected(health.error());
+  auto waiter = ipc::Waiter::create(runtime);
+  if (!waiter) return tl::unexpected(waiter.error());
+  if (auto added = waiter->add(*odometry); !added) return tl::unexpected(added.error());
+  if (auto added = waiter->add(*progress); !added) return tl::unexpected(added.error());
+  return Bus{std::move(*odometry),     std::move(*progress), std::move(*maps),
+             std::move(*own_progress), std::move(*health),   std::move(*waiter)};
+}
+
+IngestNode::IngestNode(const services::VehicleConfig& config, const services::LidarConfig& lidar,
+                       ipc::Runtime& runtime, Bus& bus, services::Lifecycle& lifecycle,
+                       std::unique_ptr<Source> source)
+    : lidar_(lidar),
+      odometry_timeout_ns_(static_cast<std::int64_t>(config.odometry.timeout_s * 1e9)),
+      bus_(bus),
+      lifecycle_(lifecycle),
+      broker_(runtime),
+      health_(runtime.name()),
+      counters_(health_),
+      mapper_(config.mapper, lidar.geometry, static_cast<std::size_t>(lidar.max_returns)),
+      credit_(lidar.name),
+      reader_(std::move(source), static_cast<std::size_t>(lidar.max_returns),
+              [this] { bus_.waiter.wake(); }) {
+  health_.set_backend("cpu");
+  lifecycle_.on_stop([this] { bus_.waiter.wake(); });
+}
+
+IngestNode::~IngestNode() {
+  lifecycle_.on_stop({});
+}
+
+ExitCode IngestNode::run() {
+  services::notify_ready();
+  ExitCode code = ExitCode::ok;
+  while (!lifecycle_.stopping()) {
+    take_odometry();
+    const bool all_mapped = map_due_sweeps();
+    if (all_mapped && is_settled()) acknowledged_sequence_ = odometry_sequence_;
+    publish_progress();
+    publish_health();
+    broker_.check();
+    if (const auto error = reader_.error(); error && reader_.at_end()) {
+      spdlog::error("{}", *error);
+      code = reader_.is_live() ? ExitCode::unavailable : ExitCode::bad_data;
+      break;
+    }
+    bus_.waiter.wait(kLongestWait);
+  }
+  services::notify_stopping();
+  health_.set_state(ipc::HealthState::stopping);
+  publish_health();
+  spdlog::info("{} of {} sweeps mapped", counters_.sweeps_mapped, counters_.sweeps_in);
+  return code;
+}
+
+void IngestNode::take_odometry() {
+  while (const auto progress = bus_.progress.take()) credit_.take(**progress);
+  while (const auto sample = bus_.odometry.take()) {
+    const ipc::Odometry& odometry = **sample;
+    if (odometry.header.epoch > epoch_) begin_epoch(odometry.header.epoch);
+    if (odometry.header.epoch < epoch_) continue;  // of a clock that has been replaced
+    odometry_sequence_ = odometry.header.sequence;
+    lossless_ = (odometry.flags & ipc::Odometry::kLossless) != 0;
+    end_of_stream_ = (odometry.flags & ipc::Odometry::kEndOfStream) != 0;
+    odometry_came_ns_ = ipc::monotonic_ns();
+    ++counters_.odometry_in;
+    if (end_of_stream_) break;  // its pose is the last one again
+    const Pose T_odom_base = services::pose_of(odometry.position_m, odometry.orientation_xyzw);
+    switch (odometry_.add({odometry.header.stamp_ns, T_odom_base})) {
+      case OdometryBuffer::Add::added:
+        reader_.set_time_hint(odometry.header.stamp_ns);
+        break;
+      case OdometryBuffer::Add::not_finite:
+        ++counters_.drop_odometry_not_finite;
+        log_drops_(spdlog::level::warn, "odometry {}: not a pose, not used", odometry_sequence_);
+        break;
+      case OdometryBuffer::Add::not_newer:
+        ++counters_.drop_odometry_not_newer;
+        log_drops_(spdlog::level::warn, "odometry {}: its time goes back, not used", odometry_sequence_);
+        break;
+    }
+  }
+}
+
+void IngestNode::begin_epoch(std::uint64_t epoch) {
+  const bool first = epoch_ == 0;
+  epoch_ = epoch;
+  odometry_.clear();
+  end_of_stream_ = false;
+  front_since_ns_ = 0;
+  if (first) return;
+  ++counters_.epochs;
+  spdlog::info("the odometry's clock begins anew");
+  if (!reader_.is_live()) reader_.rewind();
+}
+
+bool IngestNode::map_due_sweeps() {
+  while (const auto stamp_ns = reader_.front_stamp()) {
+    if (odometry_.empty() || odometry_.newest_ns() < *stamp_ns) {
+      if (!give_up_late_sweep(*stamp_ns)) return true;
+      continue;
+    }
+    if (lossless_ && !credit_.has_room(bus_.maps.sequence())) return false;
+    Sweep* const sweep = reader_.take();
+    if (sweep == nullptr) continue;
+    map_sweep(*sweep);
+    reader_.give_back(sweep);
+    front_since_ns_ = 0;
+    if (lifecycle_.stopping()) return true;
+  }
+  return true;
+}
+
+// A sensor's sweep waits for odometry only so long (R3). A recording's waits for the replay's clock, until
+// that says that it is through.
+bool IngestNode::give_up_late_sweep(std::int64_t stamp_ns) {
+  const std::int64_t now_ns = ipc::monotonic_ns();
+  if (front_since_ns_ == 0 || front_stamp_ns_ != stamp_ns) {
+    front_since_ns_ = now_ns;
+    front_stamp_ns_ = stamp_ns;
+  }
+  const bool late = reader_.is_live() && now_ns - front_since_ns_ > odometry_timeout_ns_;
+  const bool left_over = !reader_.is_live() && end_of_stream_;
+  if (!late && !left_over) return false;
+  Sweep* const sweep = reader_.take();
+  if (sweep == nullptr) return true;
+  reader_.give_back(sweep);
+  ++(late ? counters_.drop_odometry_timeout : counters_.drop_after_odometry);
+  if (late)
+    log_drops_(spdlog::level::warn, "no odometry for a sweep within {} s: dropped",
+               static_cast<double>(odometry_timeout_ns_) * 1e-9);
+  return true;
+}
+
+void IngestNode::map_sweep(const Sweep& sweep) {
+  const std::int64_t begin_ns = ipc::monotonic_ns();
+  const auto shape = mapper_.count(sweep, odometry_);
+  if (!shape) {
+    ++counters_.drop_before_odometry;
+    log_drops_(spdlog::level::info, "a sweep began before the odometry: dropped");
+    return;
+  }
+  if (!publish(sweep, *shape, begin_ns)) return;
+  ++counters_.sweeps_mapped;
+  counters_.add(mapper_.filter_counts());
+  health_.count_product();
+  last_map_ns_ = ipc::monotonic_ns();
+  counters_.voxelize.record_ns(last_map_ns_ - begin_ns);
+  services::notify_watchdog();
+}
+
+bool IngestNode::publish(const Sweep& sweep, const BrickMapShape& shape, std::int64_t begin_ns) {
+  auto writer = bus_.maps.loan(shape.brick_slots, shape.brick_count, shape.record_count);
+  if (!writer) {
+    ++counters_.drop_no_chunk;
+    log_drops_(spdlog::level::err, "a map is lost: {}", writer.error().message);
+    return false;
+  }
+  ipc::BrickMap& header = writer->header();
+  services::set_frame(mapper_.grid(), mapper_.T_odom_base(), header);
+  const cpu::FilterCounts& filter = mapper_.filter_counts();
+  header.complete = sweep.complete ? 1 : 0;
+  header.returns = filter.used;
+  header.dropped_not_finite = filter.not_finite;
+  header.dropped_too_near = filter.too_near;
+  header.dropped_too_far = filter.too_far;
+  header.dropped_body = filter.body;
+  // A recording's sweep is there, as a sensor's would be, when the clock reaches it.
+  header.mono_received_ns = sweep.received_ns != 0 ? sweep.received_ns : odometry_came_ns_;
+  header.mono_mapped_ns = begin_ns;
+  counters_.wait.record_ns(begin_ns - header.mono_received_ns);
+  mapper_.write(services::arrays_of(*writer));
+  bus_.maps.publish(std::move(*writer), sweep.stamp_ns, epoch_);
+  return true;
+}
+
+bool IngestNode::is_settled() const {
+  return reader_.is_live() || reader_.at_end() || reader_.front_stamp().has_value();
+}
+
+void IngestNode::publish_progress() {
+  const std::int64_t now_ns = ipc::monotonic_ns();
+  ipc::Progress progress{};
+  progress.odometry_sequence = acknowledged_sequence_;
+  progress.maps_published = bus_.maps.sequence();
+  const bool news = progress.odometry_sequence != told_odometry_ || progress.maps_published != told_maps_;
+  if (!news && now_ns < next_progress_ns_) return;
+  ipc::set_text(progress.reader, lidar_.name);
+  const std::int64_t stamp_ns = odometry_.empty() ? 0 : odometry_.newest_ns();
+  if (!bus_.own_progress.publish(progress, stamp_ns, epoch_)) return;
+  told_odometry_ = progress.odometry_sequence;
+  told_maps_ = progress.maps_published;
+  next_progress_ns_ = now_ns + kProgressPeriod_ns;
+}
+
+void IngestNode::publish_health() {
+  const std::int64_t now_ns = ipc::monotonic_ns();
+  if (!health_.due(now_ns) && health_.state() != ipc::HealthState::stopping) return;
+  counters_.copy(reader_.counters(), reader_.overruns(), bus_.odometry.counters().lost);
+  if (health_.state() != ipc::HealthState::stopping) {
+    if (last_map_ns_ == 0)
+      health_.set_state(ipc::HealthState::starting, odometry_.empty() ? "no odometry yet" : "no sweep yet");
+    else if (end_of_stream_ || now_ns - last_map_ns_ < 1'000'000'000)
+      health_.set_state(ipc::HealthState::ok);
+    else
+      health_.set_state(ipc::HealthState::degraded, reader_.front_stamp() ? "no odometry" : "no sweeps");
+    services::notify_watchdog();
+  }
+  const ipc::Health& health = health_.take(now_ns);
+  char status[128];
+  std::snprintf(status, sizeof status, "%.1f maps/s, %llu of %llu sweeps mapped", health.rate_hz,
+                static_cast<unsigned long long>(counters_.sweeps_mapped),
+                static_cast<unsigned long long>(counters_.sweeps_in));
+  services::notify_status(status);
+  if (!bus_.health.publish(health, odometry_.empty() ? 0 : odometry_.newest_ns(), epoch_))
+    log_drops_(spdlog::level::warn, "a health message is lost");
+}
+
+}  // namespace gvom::ingest

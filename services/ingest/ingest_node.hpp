@@ -1,0 +1,88 @@
+// One lidar's process: sweeps wait for the odometry that brackets them, become buffer maps and go out.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "core/mapper.hpp"
+#include "ipc/brick_map.hpp"
+#include "ipc/fixed.hpp"
+#include "ipc/runtime.hpp"
+#include "ipc/waiter.hpp"
+#include "services/common/bus/join.hpp"
+#include "services/common/health.hpp"
+#include "services/common/lifecycle.hpp"
+#include "services/common/log.hpp"
+#include "services/common/vehicle_config.hpp"
+#include "services/ingest/fusion_credit.hpp"
+#include "services/ingest/ingest_counters.hpp"
+#include "services/ingest/sweep_reader.hpp"
+
+namespace gvom::ingest {
+
+/// This process's ends of the topics.
+struct Bus {
+  ipc::Subscriber<ipc::Odometry> odometry;
+  ipc::Subscriber<ipc::Progress> progress;
+  ipc::BrickMapPublisher maps;
+  ipc::Publisher<ipc::Progress> own_progress;
+  ipc::Publisher<ipc::Health> health;
+  ipc::Waiter waiter;
+
+  static ipc::Expected<Bus> open(ipc::Runtime& runtime, const services::VehicleConfig& config,
+                                 const std::string& lidar);
+};
+
+class IngestNode {
+ public:
+  /// All references outlive the node. `source` was opened for `lidar`, one of `config.lidars`.
+  IngestNode(const services::VehicleConfig& config, const services::LidarConfig& lidar, ipc::Runtime& runtime,
+             Bus& bus, services::Lifecycle& lifecycle, std::unique_ptr<Source> source);
+  ~IngestNode();
+
+  /// Until a stop (ok), or the source breaks (bad_data for a recording, unavailable for a sensor).
+  services::ExitCode run();
+
+ private:
+  void take_odometry();
+  void begin_epoch(std::uint64_t epoch);
+  /// Maps every sweep that the odometry has reached; false while one waits for room at fusion.
+  bool map_due_sweeps();
+  void map_sweep(const Sweep& sweep);
+  bool publish(const Sweep& sweep, const BrickMapShape& shape, std::int64_t begin_ns);
+  bool give_up_late_sweep(std::int64_t stamp_ns);
+  /// Whether nothing more can come of the odometry so far.
+  [[nodiscard]] bool is_settled() const;
+  void publish_progress();
+  void publish_health();
+
+  const services::LidarConfig& lidar_;
+  const std::int64_t odometry_timeout_ns_;
+  Bus& bus_;
+  services::Lifecycle& lifecycle_;
+  services::BrokerWatch broker_;
+  services::HealthReport health_;
+  IngestCounters counters_;
+  services::LogEvery log_drops_{std::chrono::seconds(10)};
+
+  OdometryBuffer odometry_;
+  SweepMapper mapper_;
+  FusionCredit credit_;
+  SweepReader reader_;
+
+  std::uint64_t epoch_ = 0;
+  std::uint64_t odometry_sequence_ = 0;      // newest received
+  std::uint64_t acknowledged_sequence_ = 0;  // newest of which all sweeps were mapped
+  bool lossless_ = false;
+  bool end_of_stream_ = false;
+  std::int64_t odometry_came_ns_ = 0;  // CLOCK_MONOTONIC of the newest
+  std::int64_t front_since_ns_ = 0;    // since when the front sweep waits
+  std::int64_t front_stamp_ns_ = 0;
+  std::int64_t next_progress_ns_ = 0;
+  std::uint64_t told_odometry_ = 0;
+  std::uint64_t told_maps_ = 0;
+  std::int64_t last_map_ns_ = 0;
+};
+
+}  // namespace gvom::ingest

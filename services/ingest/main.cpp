@@ -1,0 +1,56 @@
+// gvom-ingest: sweeps of one lidar to buffer maps.
+#include <spdlog/spdlog.h>
+
+#include "services/common/bus/join.hpp"
+#include "services/common/cli.hpp"
+#include "services/common/lifecycle.hpp"
+#include "services/common/log.hpp"
+#include "services/ingest/ingest_node.hpp"
+#include "services/ingest/source.hpp"
+
+namespace {
+
+using namespace gvom;
+using services::ExitCode;
+
+ExitCode run(const services::VehicleConfig& config, const services::LidarConfig& lidar,
+             services::Lifecycle& lifecycle) {
+  auto source = ingest::open_source(lidar.source,
+                                    {lidar.min_sweep_fraction, static_cast<std::size_t>(lidar.max_returns)});
+  if (!source) {
+    spdlog::error("{}", source.error());
+    return ExitCode::bad_data;
+  }
+  for (const std::string& warning : (*source)->warnings()) spdlog::warn("{}", warning);
+  auto runtime = services::join_bus("gvom-ingest-" + lidar.name, lifecycle);
+  if (!runtime) return runtime.error();
+  auto bus = ingest::Bus::open(*runtime, config, lidar.name);
+  if (!bus) {
+    spdlog::error("{}", bus.error().message);
+    return services::exit_code_of(bus.error());
+  }
+  if (const auto faulted = runtime->prefault(); !faulted) spdlog::warn("{}", faulted.error().message);
+  spdlog::info("{} from {}", lidar.name, lidar.source);
+  ingest::IngestNode node(config, lidar, *runtime, *bus, lifecycle, std::move(*source));
+  return node.run();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  services::Lifecycle lifecycle;
+  services::Cli cli("gvom-ingest", "Maps the sweeps of one lidar and publishes buffer maps.");
+  std::string name;
+  cli.app().add_option("--lidar", name, "which of the vehicle's lidars")->required();
+  cli.also_check([&](const services::VehicleConfig& config) -> tl::expected<void, services::ConfigError> {
+    const auto lidar = find_lidar(config, name);
+    if (!lidar) return tl::unexpected(lidar.error());
+    if (!(*lidar)->source.empty()) return {};
+    return tl::unexpected(services::ConfigError{config.path, "lidars." + name + ".source",
+                                                "is empty; give one in the file or by --set"});
+  });
+  const auto config = cli.parse(argc, argv);
+  if (!config) return services::to_int(config.error());
+  services::init_logging("gvom-ingest-" + name);
+  return services::to_int(run(*config, *services::find_lidar(*config, name).value(), lifecycle));
+}

@@ -1,0 +1,139 @@
+#include "services/ingest/sweep_reader.hpp"
+
+#include <utility>
+
+namespace gvom::ingest {
+
+namespace {
+
+constexpr std::chrono::milliseconds kPatience{50};  // how soon a stop is noticed
+
+}  // namespace
+
+SweepReader::SweepReader(std::unique_ptr<Source> source, std::size_t max_returns,
+                         std::function<void()> on_change)
+    : source_(std::move(source)), live_(source_->is_live()), on_change_(std::move(on_change)) {
+  for (Sweep& sweep : sweeps_) {
+    sweep.returns.reserve(max_returns);
+    sweep.times_ns.reserve(max_returns);
+    free_[static_cast<std::size_t>(free_count_++)] = &sweep;
+  }
+  thread_ = std::thread([this] { run(); });
+}
+
+SweepReader::~SweepReader() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stop_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+std::optional<std::int64_t> SweepReader::front_stamp() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (queue_count_ == 0) return std::nullopt;
+  return queue_[static_cast<std::size_t>(queue_begin_)]->stamp_ns;
+}
+
+Sweep* SweepReader::take() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (queue_count_ == 0) return nullptr;
+  Sweep* const sweep = queue_[static_cast<std::size_t>(queue_begin_)];
+  queue_begin_ = (queue_begin_ + 1) % kSlots;
+  --queue_count_;
+  return sweep;
+}
+
+void SweepReader::give_back(Sweep* sweep) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    free_[static_cast<std::size_t>(free_count_++)] = sweep;
+  }
+  changed_.notify_all();
+}
+
+bool SweepReader::at_end() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return ended_ && !rewind_ && queue_count_ == 0;
+}
+
+std::optional<std::string> SweepReader::error() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return error_;
+}
+
+void SweepReader::rewind() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    rewind_ = true;
+    for (; queue_count_ > 0; --queue_count_) {
+      free_[static_cast<std::size_t>(free_count_++)] = queue_[static_cast<std::size_t>(queue_begin_)];
+      queue_begin_ = (queue_begin_ + 1) % kSlots;
+    }
+  }
+  changed_.notify_all();
+}
+
+SourceCounters SweepReader::counters() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return counters_;
+}
+
+std::uint64_t SweepReader::overruns() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return overruns_;
+}
+
+bool SweepReader::wait_for_slot(std::unique_lock<std::mutex>& lock) {
+  const auto ready = [this] { return stop_ || rewind_ || (!ended_ && (free_count_ > 0 || live_)); };
+  changed_.wait(lock, ready);
+  if (stop_) return false;
+  if (rewind_) {
+    rewind_ = false;
+    ended_ = false;
+    if (const auto rewound = source_->rewind(); !rewound) {
+      error_ = rewound.error();
+      ended_ = true;
+    }
+    return wait_for_slot(lock);
+  }
+  if (free_count_ == 0) {  // live, and the loop is behind
+    free_[static_cast<std::size_t>(free_count_++)] = queue_[static_cast<std::size_t>(queue_begin_)];
+    queue_begin_ = (queue_begin_ + 1) % kSlots;
+    --queue_count_;
+    ++overruns_;
+  }
+  return true;
+}
+
+void SweepReader::push(Sweep* sweep) {
+  queue_[static_cast<std::size_t>((queue_begin_ + queue_count_++) % kSlots)] = sweep;
+}
+
+void SweepReader::run() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  while (wait_for_slot(lock)) {
+    Sweep* const sweep = free_[static_cast<std::size_t>(--free_count_)];
+    lock.unlock();
+    if (const std::int64_t hint_ns = time_hint_ns_.load(std::memory_order_relaxed))
+      source_->set_time_hint(hint_ns);
+    const auto event = source_->next(*sweep, kPatience);
+    lock.lock();
+    counters_ = source_->counters();
+    const bool whole = event && *event == SourceEvent::kSweep && !rewind_;
+    if (whole) {
+      push(sweep);
+    } else {
+      free_[static_cast<std::size_t>(free_count_++)] = sweep;
+    }
+    if (!event) error_ = event.error();
+    ended_ = !event || *event == SourceEvent::kEnd;
+    if (!whole && !ended_) continue;
+    lock.unlock();
+    on_change_();
+    lock.lock();
+  }
+}
+
+}  // namespace gvom::ingest

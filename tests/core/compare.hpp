@@ -1,0 +1,29 @@
+// What two back ends disagree about, in words; empty where they agree to the bit.
+#pragma once
+
+#include <string>
+
+#include "core/brick_map.hpp"
+#include "core/cpu/fused_map.hpp"
+#include "tests/oracle/fusion.hpp"
+#include "tests/oracle/layers.hpp"
+
+namespace gvom::test {
+
+/// Holds a brick map against voxels, and to the one form that it may have: bricks in order of slots, only
+/// such with an observed voxel, records in order of bricks and cells (R6).
+std::string difference(const BrickMapView& map, const oracle::VoxelBox& voxels);
+
+/// The same of a buffer map, with its grid and stamp.
+std::string difference(const BrickMapView& map, const oracle::BufferMap& expected);
+
+/// Voxels, masks of occupied and free (R8) and last seen stamps of the fused map.
+std::string difference(const FusedView& map, const oracle::Fusion& expected, int min_hits);
+
+/// All layers, to the bit; NaN is NaN.
+std::string difference(const oracle::Layers& layers, const oracle::Layers& expected);
+
+/// The fused map as it is exported, written to arrays of exactly the size asked for.
+std::string export_difference(const cpu::FusedMap& map, const oracle::Fusion& expected);
+
+}  // namespace gvom::test

@@ -1,0 +1,114 @@
+// Packets over the loopback, through the same decoder as a recording's.
+#include <arpa/inet.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "services/ingest/monotonic.hpp"
+#include "tests/ingest/ouster_builder.hpp"
+#include "tests/ingest/recordings.hpp"
+#include "tests/tools/temporary_folder.hpp"
+
+using namespace gvom;
+using namespace gvom::test;
+using gvom::ingest::SourceEvent;
+
+namespace {
+
+/// A socket on this machine. `port` is 0 for one that the kernel chooses.
+class Socket {
+ public:
+  explicit Socket(std::uint16_t port = 0) : socket_(::socket(AF_INET, SOCK_DGRAM, 0)) {
+    sockaddr_in address = loopback(port);
+    REQUIRE(::bind(socket_, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0);
+    socklen_t size = sizeof address;
+    ::getsockname(socket_, reinterpret_cast<sockaddr*>(&address), &size);
+    port_ = ntohs(address.sin_port);
+  }
+  ~Socket() { ::close(socket_); }
+  Socket(const Socket&) = delete;
+  Socket& operator=(const Socket&) = delete;
+
+  [[nodiscard]] std::uint16_t port() const { return port_; }
+  void send(std::uint16_t to, const ByteVector& payload) const {
+    const sockaddr_in address = loopback(to);
+    REQUIRE(::sendto(socket_, payload.data(), payload.size(), 0, reinterpret_cast<const sockaddr*>(&address),
+                     sizeof address) == static_cast<ssize_t>(payload.size()));
+  }
+
+ private:
+  static sockaddr_in loopback(std::uint16_t port) {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    address.sin_port = htons(port);
+    return address;
+  }
+
+  int socket_;
+  std::uint16_t port_ = 0;
+};
+
+std::uint16_t free_port() {
+  return Socket().port();
+}
+
+constexpr std::chrono::milliseconds kWait(200);
+
+}  // namespace
+
+TEST_CASE("a live source is idle, then gives the sweep, with the moment at which its last packet came") {
+  TemporaryFolder folder;
+  const std::string meta = write_text(folder.path() + "/meta.json", OusterSensor{}.json());
+  const std::uint16_t port = free_port();
+  auto source = open("ouster-udp:" + std::to_string(port) + "?bind=127.0.0.1&meta=" + meta);
+  CHECK(source->is_live());
+  CHECK_FALSE(source->rewind().has_value());
+  Sweep sweep;
+  CHECK(source->next(sweep, std::chrono::milliseconds(1)).value() == SourceEvent::kIdle);
+
+  const Socket sensor;
+  for (int column = 0; column < 12; column += 4) sensor.send(port, plain_packet({}, 1, column));
+  CHECK(source->next(sweep, std::chrono::milliseconds(20)).value() == SourceEvent::kIdle);
+  const std::int64_t before_ns = ingest::monotonic_ns();
+  sensor.send(port, ByteVector(10));
+  sensor.send(port, plain_packet({}, 1, 12));
+  REQUIRE(source->next(sweep, kWait).value() == SourceEvent::kSweep);
+  CHECK(sweep.complete);
+  CHECK(sweep.returns.size() == 32);
+  CHECK(sweep.received_ns >= before_ns);
+  CHECK(sweep.received_ns <= ingest::monotonic_ns());
+  CHECK(source->counters().packets == 5);
+  CHECK(source->counters().foreign_packets == 1);
+}
+
+TEST_CASE("a port that is taken is an error that names it") {
+  TemporaryFolder folder;
+  const std::string meta = write_text(folder.path() + "/meta.json", OusterSensor{}.json());
+  const Socket other;
+  const std::string uri = "ouster-udp:" + std::to_string(other.port()) + "?bind=127.0.0.1&meta=" + meta;
+  CHECK(open_error(uri).find("UDP port " + std::to_string(other.port()) + " on 127.0.0.1: ") == 0);
+}
+
+TEST_CASE("packets that the kernel had no room for are counted") {
+  TemporaryFolder folder;
+  OusterSensor sensor;
+  sensor.columns = 1024;
+  sensor.columns_per_packet = 64;
+  sensor.window = "[0, 1023]";
+  const std::string meta = write_text(folder.path() + "/meta.json", sensor.json());
+  const std::uint16_t port = free_port();
+  auto source = open("ouster-udp:" + std::to_string(port) + "?bind=127.0.0.1&meta=" + meta);
+  const Socket sender;
+  constexpr int kSent = 30000;  // 82 MB, more than any buffer that is asked for
+  const ByteVector packet = plain_packet(sensor, 1, 0);
+  for (int i = 0; i < kSent; ++i) sender.send(port, packet);
+  Sweep sweep;
+  while (source->counters().packets == 0 ||
+         source->next(sweep, std::chrono::milliseconds(1)).value() != SourceEvent::kIdle) {
+    REQUIRE(source->next(sweep, std::chrono::milliseconds(1)).has_value());
+  }
+  const auto received = source->counters().packets;
+  sender.send(port, packet);  // brings the count with it
+  REQUIRE(source->next(sweep, std::chrono::milliseconds(100)).has_value());
+  CHECK(source->counters().kernel_drops == kSent - received);
+}

@@ -1,0 +1,37 @@
+#include "services/ingest/uri.hpp"
+#include "tests/ingest/recordings.hpp"
+
+using namespace gvom::ingest;
+using gvom::test::open_error;
+
+TEST_CASE("a URI is scheme, path and options") {
+  const auto uri = parse_source_uri("ouster:/a/b:c.pcap?meta=/x=y.json&port=7502");
+  REQUIRE(uri.has_value());
+  CHECK(uri->scheme == "ouster");
+  CHECK(uri->path == "/a/b:c.pcap");
+  CHECK(uri->option("meta") == "/x=y.json");
+  CHECK(port_option(*uri).value() == 7502);
+  CHECK_FALSE(uri->option("bind").has_value());
+}
+
+TEST_CASE("URIs that cannot be right are refused with the reason") {
+  const auto contains = [](const std::string& uri, const std::string& part) {
+    INFO(uri << ": " << open_error(uri));
+    CHECK(open_error(uri).find(part) != std::string::npos);
+  };
+  contains("", "expected SCHEME:PATH");
+  contains("file.pcap", "expected SCHEME:PATH");
+  contains("ouster:?meta=a", "nothing between");
+  contains("ouster:a.pcap?meta", "expected key=value, got 'meta'");
+  contains("ouster:a.pcap?meta=", "expected key=value");
+  contains("ouster:a.pcap?meta=a&meta=b", "'meta' is given twice");
+  contains("ouster:a.pcap?metadata=a", "unknown option 'metadata' (ouster takes meta, port)");
+  contains("rosbag:a", "unknown scheme 'rosbag'");
+  contains("ouster:a.pcap", "needs meta=FILE.json");
+  contains("velodyne:a.pcap", "needs model=M (VLP-16, VLP-32C, HDL-32)");
+  contains("velodyne:a.pcap?model=HDL-64", "unknown model 'HDL-64'");
+  contains("velodyne:a.pcap?model=VLP-16&port=0", "port '0' is not a UDP port");
+  contains("velodyne-udp:70000?model=VLP-16", "'70000' is not a UDP port");
+  contains("velodyne-udp:2368?model=VLP-16&bind=nonsense", "'nonsense' is not an IPv4 address");
+  contains("scans:a?t=1", "unknown option 't' (scans takes none)");
+}

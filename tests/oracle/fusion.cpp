@@ -1,0 +1,52 @@
+#include "tests/oracle/fusion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace gvom::oracle {
+
+namespace {
+
+bool is_newer(const BufferMap* a, const BufferMap* b) {
+  return a->stamp_ns != b->stamp_ns ? a->stamp_ns > b->stamp_ns : a->lidar < b->lidar;
+}
+
+}  // namespace
+
+bool Fusion::add(const BufferMap& map) {
+  for (const BufferMap& other : maps_)
+    if (other.lidar == map.lidar && other.stamp_ns == map.stamp_ns) return false;
+  maps_.push_back(map);
+  const std::vector<const BufferMap*> maps = window();
+  return std::find(maps.begin(), maps.end(), &maps_.back()) != maps.end();
+}
+
+std::vector<const BufferMap*> Fusion::window() const {
+  std::vector<const BufferMap*> all;
+  for (const BufferMap& map : maps_) all.push_back(&map);
+  std::sort(all.begin(), all.end(), is_newer);
+  const std::int64_t max_age_ns = std::llround(config_.max_age_s * 1e9);
+  std::map<int, int> of_lidar;
+  std::vector<const BufferMap*> window;
+  for (const BufferMap* map : all)
+    if (all.front()->stamp_ns - map->stamp_ns <= max_age_ns && of_lidar[map->lidar]++ < config_.buffer_size)
+      window.push_back(map);
+  return window;
+}
+
+VoxelBox Fusion::voxels() const {
+  const std::vector<const BufferMap*> maps = window();
+  VoxelBox sum(maps.front()->grid);
+  for (const BufferMap* map : maps)
+    for (const WorldVoxel& one : map->observed) {
+      if (!sum.holds(one.at)) continue;
+      Voxel& voxel = sum[one.at];
+      voxel.hits += one.voxel.hits;
+      voxel.passes += one.voxel.passes;
+      voxel.min_height_m = std::min(voxel.min_height_m, one.voxel.min_height_m);
+    }
+  return sum;
+}
+
+}  // namespace gvom::oracle
