@@ -21,7 +21,7 @@ mkdir /dev/shm/outer
 mount --rbind /tmp /dev/shm/outer
 mount -t tmpfs tmpfs /tmp
 chmod 1777 /tmp /dev/shm
-here=$(CDPATH= cd "$(dirname "$0")/.." 2>/dev/null && pwd || dirname "$0")
+here=$(CDPATH='' cd "$(dirname "$0")/.." && pwd)
 for path in "$here" "$0" "$PWD" "${GVOM_SHARED:-}" "$@"; do
   case $path in
     /tmp/*)

@@ -45,6 +45,7 @@ FusedMap::FusedMap(const MapConfig& map, const WindowConfig& window, int min_hit
   occupied_.resize(columns * static_cast<std::size_t>(words_));
   free_.resize(columns * static_cast<std::size_t>(words_));
   last_seen_ns_.resize(columns, kNeverSeen);
+  stale_.reserve(kBrickCells);
 }
 
 FusedView FusedMap::view() const {
@@ -166,23 +167,35 @@ void FusedMap::subtract_brick(std::uint32_t slot, const BrickMapView& map, std::
       lowest_m = kNoHeight_m;
       --hit_cells_[slot];
     } else if (record.min_height_m == lowest_m) {
-      lowest_m = lowest_in_window(world_brick, static_cast<std::uint32_t>(cell), hits);
+      stale_.push_back({static_cast<std::uint32_t>(cell), hits, lowest_m, 0});
+      lowest_m = kNoHeight_m;
     }
   });
+  restore_minima(world_brick, slot);
 }
 
-float FusedMap::lowest_in_window(const Int3& brick, std::uint32_t cell, std::uint32_t hits) const {
-  float lowest_m = kNoHeight_m;
+void FusedMap::restore_minima(const Int3& brick, std::uint32_t slot) {
+  const std::size_t begin = std::size_t{slot} * kBrickCells;
   for (const WindowMap& map : window_.maps()) {
+    if (stale_.empty()) return;
     const std::int32_t index = map.view.brick_at(brick);
     if (index < 0) continue;
-    const std::int32_t record = map.view.lookup[static_cast<std::size_t>(index) * kBrickCells + cell];
-    if (record < 0) continue;
-    lowest_m = std::min(lowest_m, map.view.records[record].min_height_m);
-    hits -= map.view.records[record].hits;
-    if (hits == 0) break;  // all maps that hit this voxel were seen
+    const std::int32_t* lookup = map.view.lookup + static_cast<std::size_t>(index) * kBrickCells;
+    for (StaleMinimum& stale : stale_) stale.record = lookup[stale.cell];
+    for (std::size_t i = stale_.size(); i-- > 0;) {
+      StaleMinimum& stale = stale_[i];
+      if (stale.record < 0) continue;
+      const VoxelRecord& record = map.view.records[stale.record];
+      float& lowest_m = min_height_m_[begin + stale.cell];
+      lowest_m = std::min(lowest_m, record.min_height_m);
+      stale.hits -= record.hits;
+      // All maps that hit this voxel were seen, or none can be lower.
+      if (stale.hits != 0 && lowest_m != stale.least_m) continue;
+      stale = stale_.back();
+      stale_.pop_back();
+    }
   }
-  return lowest_m;
+  stale_.clear();
 }
 
 void FusedMap::rebuild_masks(const Int3& brick, std::uint32_t slot) {

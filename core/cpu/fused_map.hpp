@@ -40,13 +40,21 @@ class FusedMap {
     bool moved_in_z;
   };
 
+  // A voxel of one brick whose minimum left the window.
+  struct StaleMinimum {
+    std::uint32_t cell;
+    std::uint32_t hits;   // in maps that are still to be looked at
+    float least_m;        // the minimum that left: none can be lower
+    std::int32_t record;  // of the map in work
+  };
+
   void update_brick_column(std::int32_t bx, std::int32_t by, const Change& change);
   bool update_brick(const Int3& brick, std::uint32_t slot, const Change& change);
   void refill(const Int3& brick, std::uint32_t slot);
   void add_brick(std::uint32_t slot, const BrickMapView& map, std::int32_t brick);
   void subtract_brick(std::uint32_t slot, const BrickMapView& map, std::int32_t brick,
                       const Int3& world_brick);
-  [[nodiscard]] float lowest_in_window(const Int3& brick, std::uint32_t cell, std::uint32_t hits) const;
+  void restore_minima(const Int3& brick, std::uint32_t slot);
   void rebuild_masks(const Int3& brick, std::uint32_t slot);
   void update_last_seen(std::int32_t bx, std::int32_t by, const Change& change, bool all);
   void refresh_last_seen(std::int32_t bx, std::int32_t by, std::uint64_t columns, std::int64_t newest_ns);
@@ -67,6 +75,7 @@ class FusedMap {
   std::vector<std::uint64_t> occupied_;
   std::vector<std::uint64_t> free_;
   std::vector<std::int64_t> last_seen_ns_;
+  std::vector<StaleMinimum> stale_;
 };
 
 }  // namespace gvom::cpu

@@ -2,12 +2,11 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "core/column.hpp"
+#include "core/cpu/negative_finder.hpp"
 #include "core/cpu/plane_fitter.hpp"
 #include "core/layers.hpp"
-#include "core/negative.hpp"
 
 namespace gvom::cpu {
 
@@ -19,13 +18,10 @@ class LayerMaker {
   void make(const FusedView& map, const LayerMoment& moment, const LayerArrays& out);
 
  private:
-  void find_nearest_heights(const float* height);
-
   MapperConfig config_;
   std::int32_t n_xy_;
-  std::vector<std::int16_t> along_x_;
-  std::vector<std::int16_t> along_y_;
   PlaneFitter planes_;
+  NegativeFinder negatives_;
 };
 
 }  // namespace gvom::cpu

@@ -53,10 +53,29 @@ GVOM_INLINE std::int32_t round_to_32_bits(double value) {
   return static_cast<std::int32_t>(bits);
 }
 
-// Writes the counters behind the crossings of an axis in whole vectors; returns the lanes with a tie.
+// Conditions are sign bits: comparisons of whole vectors are not vector instructions everywhere.
+GVOM_INLINE Ints is_negative(Ints value) {
+  return value >> 31;
+}
+
+GVOM_INLINE bool any_negative(Ints value) {
+  using Longs = std::int64_t __attribute__((vector_size(sizeof(Ints))));
+  const auto longs = (Longs)value;
+  std::int64_t any = 0;
+  for (int i = 0; i < kLanes / 2; ++i) any |= longs[i];
+  return (any & std::int64_t(0x8000000080000000u)) != 0;
+}
+
+// Negative where a coordinate is less than kTieMargin units from a face.
+GVOM_INLINE Ints near_a_face(Ints coordinate, int shift) {
+  const std::uint32_t margin = kTieMargin << (32 - shift);
+  const Unsigneds fraction = (Unsigneds)coordinate << (32 - shift);
+  return (Ints)(((fraction + margin) >> 1) - margin);
+}
+
+// Writes the counters behind the crossings of an axis in whole vectors; negative lanes had a tie.
 template <int kAxis>
-GVOM_INLINE Ints crossings_of_axis(const Ray& ray, const CastGrid& grid, std::uint32_t* out,
-                                   std::uint8_t* touched) {
+GVOM_INLINE Ints crossings_of_axis(const Ray& ray, const CastGrid& grid, std::uint32_t* out) {
   constexpr int kB = kAxis == 0 ? 1 : 0;
   constexpr int kC = kAxis == 2 ? 1 : 2;
   const std::int32_t step = ray.step[kAxis];
@@ -68,29 +87,22 @@ GVOM_INLINE Ints crossings_of_axis(const Ray& ray, const CastGrid& grid, std::ui
   const double from_c = ray.from[kC] * ray.units;
   const Ints ramp_b = kRamp * round_to_32_bits(step_b);
   const Ints ramp_c = kRamp * round_to_32_bits(step_c);
-  const std::uint32_t margin = kTieMargin << (32 - ray.shift);
   Ints own = ray.voxel[kAxis] + step * (ray.first[kAxis] + 1) + step * kRamp;
-  // A brick is entered through one of its own faces: by one of eight neighbouring crossings.
-  const std::int32_t entry = (step > 0 ? -own[0] : own[0] + 1) & 7;
   Ints tie{};
   for (std::int32_t k = 0; k < ray.count[kAxis]; k += kLanes) {
     const Ints b = round_to_32_bits(from_b + step_b * (to_face + k)) + ramp_b;
     const Ints c = round_to_32_bits(from_c + step_c * (to_face + k)) + ramp_c;
     const Ints voxel_b = b >> ray.shift;
     const Ints voxel_c = c >> ray.shift;
-    tie |= (Ints)(((Unsigneds)b << (32 - ray.shift)) + margin <= Unsigneds{} + 2 * margin);
-    tie |= (Ints)(((Unsigneds)c << (32 - ray.shift)) + margin <= Unsigneds{} + 2 * margin);
+    tie |= near_a_face(b, ray.shift) | near_a_face(c, ray.shift);
     const Ints x = kAxis == 0 ? own : voxel_b;
     const Ints y = kAxis == 1 ? own : (kAxis == 0 ? voxel_b : voxel_c);
     const Ints z = kAxis == 2 ? own : voxel_c;
     const Ints index = (x << 6) + (y << 3) + z + (y >> 3) * grid.next_y + (z >> 3) * grid.next_z;
-    const Ints in = (Ints)((Unsigneds)voxel_b < Unsigneds{} + static_cast<std::uint32_t>(grid.size[kB])) &
-                    (Ints)((Unsigneds)voxel_c < Unsigneds{} + static_cast<std::uint32_t>(grid.size[kC])) &
-                    (kRamp < ray.count[kAxis] - k);
-    const Ints counter = (index & in) | (grid.outside & ~in);
+    const Ints out_of_grid = is_negative(voxel_b | (grid.size[kB] - 1 - voxel_b) | voxel_c |
+                                         (grid.size[kC] - 1 - voxel_c) | (ray.count[kAxis] - 1 - k - kRamp));
+    const Ints counter = (index & ~out_of_grid) | (grid.outside & out_of_grid);
     __builtin_memcpy(out + k, &counter, sizeof counter);
-    touched[out[k + entry] >> 9] = 1;
-    touched[out[k + entry + kBrickEdge] >> 9] = 1;
     own += step * kLanes;
   }
   return tie;
@@ -128,19 +140,17 @@ struct Crossed {
 // Fills `out` with the counters behind all crossings of all rays, but for those in `tie`. Each axis
 // writes whole vectors; what it writes too much, the next one overwrites.
 GVOM_CLONES Crossed cross_faces(const std::int64_t (&from)[3], const RayEnds& ends, const CastGrid& grid,
-                                std::uint32_t* out, std::uint8_t* touched) {
+                                std::uint32_t* out) {
   Crossed crossed;
   std::uint32_t* next = out;
   for (int i = 0; i < ends.count; ++i) {
     const Ray ray = make_ray(from, ends, i, grid.size);
     std::uint32_t* out_y = next + ray.count[0];
     std::uint32_t* out_z = out_y + ray.count[1];
-    Ints tie = crossings_of_axis<0>(ray, grid, next, touched);
-    tie |= crossings_of_axis<1>(ray, grid, out_y, touched);
-    tie |= crossings_of_axis<2>(ray, grid, out_z, touched);
-    std::int32_t any = 0;
-    for (int lane = 0; lane < kLanes; ++lane) any |= tie[lane];
-    if (any == 0)
+    Ints tie = crossings_of_axis<0>(ray, grid, next);
+    tie |= crossings_of_axis<1>(ray, grid, out_y);
+    tie |= crossings_of_axis<2>(ray, grid, out_z);
+    if (!any_negative(tie))
       next = out_z + ray.count[2];
     else
       crossed.tie[crossed.ties++] = static_cast<std::uint8_t>(i);
@@ -169,8 +179,14 @@ void PassCounters::cast_exactly(const std::int64_t (&from)[3], const std::int64_
 void PassCounters::cast(const std::int64_t (&from)[3], const RayEnds& ends) {
   const CastGrid grid{size_, bricks_[0] * kBrickCells - 64, bricks_[0] * bricks_[1] * kBrickCells - 8,
                       static_cast<std::int32_t>(outside())};
-  const Crossed crossed = cross_faces(from, ends, grid, crossed_.data(), touched_.data());
-  for (std::size_t k = 0; k < crossed.crossings; ++k) ++counters_[crossed_[k]];
+  const Crossed crossed = cross_faces(from, ends, grid, crossed_.data());
+  std::uint32_t* const counters = counters_.data();
+  std::uint8_t* const touched = touched_.data();
+  const std::uint32_t* const crossed_end = crossed_.data() + crossed.crossings;
+  for (const std::uint32_t* counter = crossed_.data(); counter != crossed_end; ++counter) {
+    ++counters[*counter];
+    touched[*counter >> 9] = 1;
+  }
   const std::uint32_t start = index(fixed_voxel(from[0]), fixed_voxel(from[1]), fixed_voxel(from[2]));
   counters_[start] += static_cast<std::uint32_t>(ends.count - crossed.ties);
   touched_[start >> 9] = 1;

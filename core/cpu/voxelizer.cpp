@@ -64,9 +64,9 @@ Voxelizer::Voxelizer(const MapConfig& map, const LidarGeometry& lidar, const Veh
 }
 
 bool Voxelizer::passes_filter(const Return& r, FilterCounts& counts) const {
-  const double range2_m2 = (r.x_m * r.x_m + r.y_m * r.y_m) + r.z_m * r.z_m;
-  if (!std::isfinite(range2_m2)) return ++counts.not_finite, false;
-  const double range_m = std::sqrt(range2_m2);
+  if (!std::isfinite(r.x_m) || !std::isfinite(r.y_m) || !std::isfinite(r.z_m))
+    return ++counts.not_finite, false;
+  const double range_m = std::sqrt((r.x_m * r.x_m + r.y_m * r.y_m) + r.z_m * r.z_m);
   if (range_m < lidar_.min_range_m) return ++counts.too_near, false;
   if (range_m > lidar_.max_range_m) return ++counts.too_far, false;
   if (vehicle_.body) {

@@ -82,6 +82,7 @@ services::ExitCode FusionNode::run() {
     fuse_arrived();
     const std::int64_t now_ns = ipc::monotonic_ns();
     if (config_.fusion.rate_hz > 0 && tick_due(now_ns)) publish_layers();
+    publish_voxels();
     publish_progress();
     publish_health();
     broker_.check();
@@ -139,6 +140,7 @@ void FusionNode::begin_epoch(std::uint64_t epoch) {
   epoch_ = epoch;
   fuser_.reset();
   fresh_ = false;
+  voxels_fresh_ = false;
   for (const WindowMap& left : fuser_.fused().window().left()) bus_.inbox.release(left.token);
 }
 
@@ -191,6 +193,7 @@ void FusionNode::publish_layers() {
   ++counters_.layers_out;
   health_.count_product();
   services::notify_watchdog();
+  voxels_fresh_ = true;
   publish_voxels();
 }
 
@@ -212,7 +215,9 @@ void FusionNode::fill_lidars(ipc::Layers& header) const {
 
 void FusionNode::publish_voxels() {
   const std::int64_t now_ns = ipc::monotonic_ns();
-  if (config_.fusion.voxel_rate_hz <= 0 || now_ns < next_voxels_ns_ || !bus_.voxels.has_subscribers()) return;
+  if (config_.fusion.voxel_rate_hz <= 0 || !voxels_fresh_ || now_ns < next_voxels_ns_) return;
+  if (!bus_.voxels.has_subscribers()) return;
+  voxels_fresh_ = false;
   next_voxels_ns_ = now_ns + period_ns(config_.fusion.voxel_rate_hz);
   const BrickMapShape shape = fuser_.fused().shape();
   auto writer = bus_.voxels.loan(shape.brick_slots, shape.brick_count, shape.record_count);

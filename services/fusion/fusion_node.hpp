@@ -87,7 +87,8 @@ class FusionNode {
   ipc::BrickMap newest_{};  // header of the newest map in the window, for its stage times
   std::uint64_t epoch_ = 0;
   std::int64_t fused_ns_ = 0;
-  bool fresh_ = false;  // something was fused since the last layers
+  bool fresh_ = false;         // something was fused since the last layers
+  bool voxels_fresh_ = false;  // layers were made since the last voxel map
   std::int64_t next_tick_ns_ = 0;
   std::int64_t next_voxels_ns_ = 0;
   std::int64_t next_progress_ns_ = 0;

@@ -87,7 +87,7 @@ ExitCode IngestNode::run() {
 }
 
 void IngestNode::take_odometry() {
-  while (const auto progress = bus_.progress.take()) credit_.take(**progress);
+  while (const auto progress = bus_.progress.take()) credit_.take(**progress, bus_.maps.sequence());
   while (const auto sample = bus_.odometry.take()) {
     const ipc::Odometry& odometry = **sample;
     if (odometry.header.epoch > epoch_) begin_epoch(odometry.header.epoch);
@@ -129,7 +129,7 @@ void IngestNode::begin_epoch(std::uint64_t epoch) {
 
 bool IngestNode::map_due_sweeps() {
   while (const auto stamp_ns = reader_.front_stamp()) {
-    if (odometry_.empty() || odometry_.newest_ns() < *stamp_ns) {
+    if (!is_due(*stamp_ns)) {
       if (!give_up_late_sweep(*stamp_ns)) return true;
       continue;
     }
@@ -207,8 +207,15 @@ bool IngestNode::publish(const Sweep& sweep, const BrickMapShape& shape, std::in
   return true;
 }
 
+bool IngestNode::is_due(std::int64_t stamp_ns) const {
+  return !odometry_.empty() && odometry_.newest_ns() >= stamp_ns;
+}
+
+// The reader may have handed a sweep over since the loop looked: one that is due is not settled.
 bool IngestNode::is_settled() const {
-  return reader_.is_live() || reader_.at_end() || reader_.front_stamp().has_value();
+  if (reader_.is_live()) return true;
+  const auto stamp_ns = reader_.front_stamp();
+  return stamp_ns ? !is_due(*stamp_ns) : reader_.at_end();
 }
 
 void IngestNode::publish_progress() {

@@ -52,6 +52,8 @@ class IngestNode {
   void map_sweep(const Sweep& sweep);
   bool publish(const Sweep& sweep, const BrickMapShape& shape, std::int64_t begin_ns);
   bool give_up_late_sweep(std::int64_t stamp_ns);
+  /// Whether the odometry has reached the stamp.
+  [[nodiscard]] bool is_due(std::int64_t stamp_ns) const;
   /// Whether nothing more can come of the odometry so far.
   [[nodiscard]] bool is_settled() const;
   void publish_progress();

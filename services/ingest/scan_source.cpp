@@ -17,7 +17,7 @@
 namespace gvom::ingest {
 namespace {
 
-constexpr std::size_t kBinPoint = 16;  // float32 x, y, z, intensity
+constexpr std::size_t kBinPoint = 16;   // float32 x, y, z, intensity
 constexpr double kAbsoluteFromS = 1e8;  // a larger time is one of the clock, not of the sweep
 constexpr double kMaxTimeS = 4e9;
 

@@ -39,12 +39,17 @@ const Reader* Readers::take(const ipc::Progress& progress, std::uint64_t publish
   if (restarted) {
     ++reader.restarts;
     reader.acknowledged = published;
+    if (&reader == &fusion_)
+      for (Reader& lidar : ingests_) lidar.missed_maps = lidar.latest.maps_published;
+    else
+      reader.missed_maps = 0;
   }
   if (progress.header.epoch >= first_epoch_) {
     reader.acknowledged = std::max(reader.acknowledged, std::min(progress.odometry_sequence, published));
   }
   if (!reader.announced || restarted || !same_progress(progress, reader.latest)) reader.advanced_ns = mono_ns;
   reader.announced = true;
+  reader.heard_ns = mono_ns;
   reader.latest = progress;
   return restarted ? &reader : nullptr;
 }
@@ -76,16 +81,16 @@ std::uint64_t Readers::taken_by_fusion(const std::string& lidar) const {
   return 0;
 }
 
-std::vector<std::string> Readers::outstanding(std::uint64_t sequence) const {
+std::vector<std::string> Readers::outstanding(std::uint64_t sequence, std::int64_t heard_since_ns) const {
   std::vector<std::string> lines;
   for (const Reader& reader : ingests_) {
-    if (!reader.announced) continue;
+    if (!reader.announced || reader.heard_ns < heard_since_ns) continue;
     if (reader.acknowledged < sequence) {
       lines.push_back("'" + reader.name + "' is at odometry " + std::to_string(reader.acknowledged) + " of " +
                       std::to_string(sequence));
     }
-    const std::uint64_t taken = taken_by_fusion(reader.name);
-    if (fusion_.announced && taken < reader.latest.maps_published) {
+    const std::uint64_t taken = std::max(taken_by_fusion(reader.name), reader.missed_maps);
+    if (fusion_.announced && fusion_.heard_ns >= heard_since_ns && taken < reader.latest.maps_published) {
       lines.push_back("fusion took " + std::to_string(taken) + " of " +
                       std::to_string(reader.latest.maps_published) + " maps of '" + reader.name + "'");
     }

@@ -16,7 +16,9 @@ struct Reader {
   bool announced = false;
   std::uint64_t acknowledged = 0;  ///< Every odometry up to this sequence is used or will never be.
   std::uint64_t restarts = 0;
-  std::int64_t advanced_ns = 0;  ///< CLOCK_MONOTONIC when it last came further.
+  std::int64_t advanced_ns = 0;   ///< CLOCK_MONOTONIC when it last came further.
+  std::int64_t heard_ns = 0;      ///< ... when it last said anything.
+  std::uint64_t missed_maps = 0;  ///< An ingest's, from before fusion began anew: it never gets them.
   ipc::Progress latest{};
 };
 
@@ -35,8 +37,10 @@ class Readers {
   [[nodiscard]] const Reader* slowest() const;
 
   /// What is still to be done until all that announced themselves are through with the odometry up to
-  /// `sequence` and fusion with all their maps: one line for each, empty when done.
-  [[nodiscard]] std::vector<std::string> outstanding(std::uint64_t sequence) const;
+  /// `sequence` and fusion with all their maps: one line for each, empty when done. Who has not been heard
+  /// of since `heard_since_ns` (CLOCK_MONOTONIC) is left out.
+  [[nodiscard]] std::vector<std::string> outstanding(std::uint64_t sequence,
+                                                     std::int64_t heard_since_ns = 0) const;
 
   [[nodiscard]] std::int64_t last_advance_ns() const;  ///< Of any; 0: none yet.
   [[nodiscard]] std::uint64_t maps_published() const;  ///< By all ingests.

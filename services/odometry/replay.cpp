@@ -16,6 +16,7 @@ namespace {
 constexpr auto kLongestWait = 100ms;  // between looks at the broker, the watchdog and the stop
 constexpr std::int64_t kStallNs = 10'000'000'000;
 constexpr std::int64_t kDrainStallNs = 30'000'000'000;
+constexpr std::int64_t kSilentNs = 2'000'000'000;  // a reader says something four times a second
 constexpr std::int64_t kWorthSayingNs = 1'000'000'000;
 
 std::string joined(const std::vector<std::string>& parts) {
@@ -162,7 +163,8 @@ Replay::Outcome Replay::drain() {
   const std::int64_t begin_ns = ipc::monotonic_ns();
   while (true) {
     if (const Outcome served = serve(kLongestWait); !served) return served;
-    const std::vector<std::string> outstanding = readers_.outstanding(published_);
+    const std::int64_t heard_since_ns = options_.lossless ? 0 : ipc::monotonic_ns() - kSilentNs;
+    const auto outstanding = readers_.outstanding(published_, heard_since_ns);
     if (outstanding.empty()) return {};
     if (ipc::monotonic_ns() - std::max(begin_ns, readers_.last_advance_ns()) <= kDrainStallNs) continue;
     spdlog::log(options_.lossless ? spdlog::level::err : spdlog::level::warn,

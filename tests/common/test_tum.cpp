@@ -6,6 +6,7 @@
 
 #include "services/common/tum.hpp"
 #include "tests/common/temporary_file.hpp"
+#include "tests/support/recordings.hpp"
 
 namespace {
 
@@ -93,18 +94,13 @@ TEST_CASE("recordings that are not there or empty are refused") {
 }
 
 TEST_CASE("the recordings' odometry is read whole") {
-  const char* const shared = std::getenv("GVOM_SHARED");
-  const std::filesystem::path data =
-      std::filesystem::path(shared != nullptr ? shared : GVOM_SOURCE_DIR "/../shared") / "data";
-  if (!std::filesystem::exists(data)) {
-    WARN("SKIPPED: no recordings at " << data << " (set GVOM_SHARED)");
-    return;
-  }
-  const auto kitti = services::read_tum(data / "kitti_drive0005/odometry.tum");
+  const auto data = test::recordings();
+  if (!data) return;
+  const auto kitti = services::read_tum(*data + "/kitti_drive0005/odometry.tum");
   REQUIRE(kitti);
   CHECK(kitti->size() == 154);
   CHECK((*kitti)[1].stamp_ns == 100000000);
-  const auto ouster = services::read_tum(data / "ouster_os1_128_moving/odometry.tum");
+  const auto ouster = services::read_tum(*data + "/ouster_os1_128_moving/odometry.tum");
   REQUIRE(ouster);
   CHECK(ouster->size() == 4);
   CHECK(ouster->front().stamp_ns == 991587364520);

@@ -29,9 +29,9 @@ MapperConfig random_config(Random& random, const ScenarioSize& size) {
   config.layers.min_obstacle_height_m = random.pick({0.0, 0.25, 0.5});
   config.layers.max_obstacle_height_m = random.pick({0.5, 1.0, 2.0});
   config.layers.density_threshold = random.pick({0.1, 0.5, 1.0});
-  config.layers.plane_size = random.pick({3, 3, 5, 7});
+  config.layers.plane_size = random.pick({3, 3, 5, 7, 15});
   config.layers.slope_threshold_rad = random.pick({0.2, 0.5, 1.2});
-  config.layers.search_distance = random.pick({1, 3, 8, 15});
+  config.layers.search_distance = random.pick({1, 3, 8, 15, 15, 255});
   config.layers.negative_threshold_m = random.pick({0.0, 0.5});
   config.cost.soft_weight = random.pick({0.0, 1.0, 0.3});
   config.cost.slope_full_rad = random.pick({0.5, 1.1});
@@ -74,6 +74,8 @@ std::vector<StampedPose> random_drive(Random& random, const MapConfig& map, cons
   Eigen::Vector3d home_m = Eigen::Vector3d::Zero(), away_m = Eigen::Vector3d::Zero();
   if (random.chance(0.7))
     home_m = size.on_faces ? half_voxels(random, map, 400) : half_voxels(random, map, 40000);
+  if (!size.on_faces && random.chance(0.2))
+    home_m += Eigen::Vector3d(4e5, 5.2e6, 300);  // as a map projection has it
   std::vector<StampedPose> drive;
   for (int i = 0; i <= size.sweeps; ++i) {
     const double roll = random.uniform(0, 1);
@@ -81,6 +83,8 @@ std::vector<StampedPose> random_drive(Random& random, const MapConfig& map, cons
       home_m += half_voxels(random, map, 6);
     else if (roll < 0.5)
       home_m += half_voxels(random, map, size.size_z);
+    else if (roll < 0.52 && !size.on_faces)
+      away_m.y() = away_m.y() != 0 ? 0 : -5.2e6;
     else if (roll < 0.65)
       for (int a = 0; a < 3; ++a)
         away_m[a] = away_m[a] != 0 ? 0 : extent_m[a] * random.pick({0.0, 0.5, 1.0, 2.5, -0.5, -1.0, -2.0});
@@ -166,7 +170,7 @@ Scenario random_scenario(std::uint64_t seed, const ScenarioSize& size) {
     const std::int64_t period_ns = kTick_ns * random.integer(1, 3);
     const std::int64_t offset_ns =
         size.on_faces || random.chance(0.5) ? 0 : random.integer(1, 99) * 1'000'000;
-    for (std::int64_t t = offset_ns; t <= size.sweeps * kTick_ns + kTick_ns / 2; t += period_ns)
+    for (std::int64_t t = offset_ns; t <= (size.sweeps + 2) * kTick_ns; t += period_ns)
       arrivals.push_back({lidar, random_sweep(random, map, size, t)});
   }
   std::stable_sort(arrivals.begin(), arrivals.end(),

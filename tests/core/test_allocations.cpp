@@ -1,1 +1,143 @@
+// After its first maps the pipeline allocates nothing.
+#include <atomic>
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdlib>
+#include <new>
+
+#include "core/mapper.hpp"
+#include "tests/core/random.hpp"
+#include "tests/oracle/layers.hpp"
+
+namespace {
+std::atomic<std::uint64_t> allocations{0};
+}
+
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool kCountsMalloc = false;  // the sanitizer's own malloc must stay
+#else
+constexpr bool kCountsMalloc = true;
+
+// In place of the C library's, which operator new and Eigen call too.
+extern "C" {
+void* __libc_malloc(std::size_t size);
+void* __libc_calloc(std::size_t count, std::size_t size);
+void* __libc_realloc(void* memory, std::size_t size);
+void* malloc(std::size_t size) {
+  ++allocations;
+  return __libc_malloc(size);
+}
+void* calloc(std::size_t count, std::size_t size) {
+  ++allocations;
+  return __libc_calloc(count, size);
+}
+void* realloc(void* memory, std::size_t size) {
+  ++allocations;
+  return __libc_realloc(memory, size);
+}
+}
+#endif
+
+namespace gvom::test {
+namespace {
+
+constexpr std::uint32_t kReturns = 300;
+constexpr std::int64_t kPeriod_ns = 50'000'000;
+
+MapperConfig config() {
+  MapperConfig config;
+  config.map = {0.4, 0.4, 64, 32};
+  config.window = {4, 2.0};
+  return config;
+}
+
+// Room for the largest map, as a chunk of shared memory has.
+struct Chunk {
+  std::vector<std::int32_t> directory, lookup;
+  std::vector<std::uint64_t> columns;
+  std::vector<VoxelRecord> records;
+
+  explicit Chunk(std::uint32_t bricks)
+      : directory(bricks), lookup(std::size_t{bricks} * kBrickCells), columns(bricks), records(kReturns) {}
+  BrickMapArrays arrays() { return {directory.data(), lookup.data(), columns.data(), records.data()}; }
+};
+
+// One lidar's drive in a circle; every sweep is counted, written, fused and made into layers.
+class Drive {
+ public:
+  Drive() {
+    for (int i = 0; i < 6; ++i)
+      chunks_.emplace_back(grid_around(config().map, Eigen::Vector3d::Zero()).brick_slots());
+    sweep_.returns.reserve(kReturns);
+    sweep_.times_ns.reserve(10);
+  }
+
+  void step() {
+    prepare_sweep();
+    const std::int64_t before = sweep_.times_ns.front();
+    odometry_.add({before, pose()});
+    ++steps_;
+    odometry_.add({sweep_.stamp_ns, pose()});
+    const auto shape = mapper_.count(sweep_, odometry_);
+    Chunk& chunk = chunks_[steps_ % chunks_.size()];
+    mapper_.write(chunk.arrays());
+    const BrickMapView view{
+        mapper_.grid(),         sweep_.stamp_ns,     mapper_.T_odom_base(), *shape,
+        chunk.directory.data(), chunk.lookup.data(), chunk.columns.data(),  chunk.records.data()};
+    added_ += fuser_.add({view, 0, steps_}) == AddResult::added;
+    fuser_.make_layers(layers_.arrays());
+  }
+
+  [[nodiscard]] std::size_t added() const { return added_; }
+
+ private:
+  [[nodiscard]] Pose pose() const {
+    const double angle = static_cast<double>(steps_) * 0.05;
+    return {{20 * std::sin(angle), 20 * std::cos(angle), std::sin(angle * 3)},
+            Eigen::Quaterniond(Eigen::AngleAxisd(-angle, Eigen::Vector3d::UnitZ()))};
+  }
+
+  void prepare_sweep() {
+    sweep_.clear();
+    sweep_.stamp_ns = static_cast<std::int64_t>(steps_ + 1) * kPeriod_ns;
+    for (int i = 9; i >= 0; --i) sweep_.times_ns.push_back(sweep_.stamp_ns - i * 4'000'000);
+    for (std::uint32_t i = 0; i < kReturns; ++i)
+      sweep_.returns.push_back(
+          {random_.uniform(-15, 15), random_.uniform(-15, 15), random_.uniform(-1.5, 2), i * 10 / kReturns});
+  }
+
+  Random random_{5};
+  std::size_t steps_ = 0;
+  std::size_t added_ = 0;
+  Sweep sweep_;
+  OdometryBuffer odometry_;
+  SweepMapper mapper_{config(), {}, kReturns};
+  MapFuser fuser_{config()};
+  oracle::Layers layers_{config().map.size_xy};
+  std::vector<Chunk> chunks_;
+};
+
+TEST_CASE("A thousand sweeps after the first few allocate nothing") {
+  if (!kCountsMalloc) {
+    WARN("SKIPPED: allocations are not counted under the address sanitizer");
+    return;
+  }
+  Drive drive;
+  for (int i = 0; i < 20; ++i) drive.step();
+  const std::uint64_t before = allocations;
+  for (int i = 0; i < 1000; ++i) drive.step();
+  const std::uint64_t after = allocations;
+  CHECK(after - before == 0);
+  CHECK(drive.added() == 1020);
+}
+
+TEST_CASE("The count of allocations counts") {
+  if (!kCountsMalloc) return;
+  const std::uint64_t before = allocations;
+  const std::vector<int> some(1000);
+  CHECK(allocations > before);
+  CHECK(some.size() == 1000);
+}
+
+}  // namespace
+}  // namespace gvom::test

@@ -1,1 +1,96 @@
+// Hits and passes of a sweep (R1, R4..R6), and what their sums say (R8).
 #include <catch2/catch.hpp>
+#include <cmath>
+
+#include "core/grid.hpp"
+#include "tests/core/rig.hpp"
+
+namespace gvom::test {
+namespace {
+
+TEST_CASE("A grid's origin is half its size below the vehicle, lowered to a whole brick") {
+  const MapConfig map{0.5, 0.25, 64, 32};
+  CHECK(grid_around(map, {0, 0, 0}).origin == Int3{-32, -32, -16});
+  CHECK(grid_around(map, {3.99, -0.01, 1.99}).origin == Int3{-32, -40, -16});
+  CHECK(grid_around(map, {4.0, -4.0, 2.0}).origin == Int3{-24, -40, -8});
+  CHECK(grid_around(map, {-4.01, 1000, -2.01}).origin == Int3{-48, 1968, -32});
+  CHECK(grid_around({0.4, 0.4, 264, 8}, {0, 0, 0}).origin == Int3{-136, -136, -8});
+}
+
+TEST_CASE("A return 10 m ahead is one hit and a pass in each of the 20 voxels before it") {
+  Rig rig;
+  rig.see({{10.25, 0.25, 1.25}});
+  CHECK(rig.voxel(10.25, 0.25, 1.25).hits == 1);
+  CHECK(rig.voxel(10.25, 0.25, 1.25).passes == 0);
+  CHECK(rig.voxel(10.25, 0.25, 1.25).min_height_m == 1.25f);
+  for (int i = 0; i < 20; ++i) {
+    CHECK(rig.voxel(0.25 + 0.5 * i, 0.25, 1.25).passes == 1);
+    CHECK(rig.voxel(0.25 + 0.5 * i, 0.25, 1.25).hits == 0);
+  }
+  CHECK(rig.total().hits == 1);
+  CHECK(rig.total().passes == 20);
+}
+
+TEST_CASE("A wall 10 m ahead is hit in the wall's voxels and in no other") {
+  Rig rig;
+  Points wall;
+  for (double y = -4.75; y < 5; y += 0.5)
+    for (double z = 0.25; z < 3; z += 0.5) wall.emplace_back(10.25, y, z);
+  rig.see(wall);
+  for (const Eigen::Vector3d& p : wall) CHECK(rig.voxel(p.x(), p.y(), p.z()).hits == 1);
+  CHECK(rig.total().hits == wall.size());
+  CHECK(rig.voxel(0.25, 0.25, 1.25).passes == wall.size());  // the sensor's own voxel
+  for (const Eigen::Vector3d& p : wall) CHECK(rig.voxel(p.x() + 0.5, p.y(), p.z()).passes == 0);
+}
+
+TEST_CASE("A return beyond the grid clears the voxels on its way") {
+  Rig rig;  // up to x = 16 m
+  rig.see({{500.25, 0.25, 1.25}});
+  CHECK(rig.total().hits == 0);
+  CHECK(rig.total().passes == 32);
+  CHECK(rig.voxel(15.75, 0.25, 1.25).passes == 1);
+}
+
+TEST_CASE("A ray that leaves the grid and comes to its height again counts within it only") {
+  Rig rig;  // z from -16 to 16 m: the ray is out at the top after 14.75 of 100 m
+  rig.see({{0.25, 0.25, 101.25}});
+  CHECK(rig.total().passes == 30);
+}
+
+TEST_CASE("A return in the sensor's own voxel is a hit without a pass") {
+  Rig rig;
+  rig.see({{0.3, 0.2, 1.1}, {0.25, 0.25, 1.25}});
+  CHECK(rig.voxel(0.25, 0.25, 1.25).hits == 2);
+  CHECK(rig.total().passes == 0);
+}
+
+TEST_CASE("A voxel's height is its lowest return's, as float") {
+  Rig rig;
+  rig.see({{5.25, 0.25, 1.4}, {5.3, 0.2, 1.1}, {5.25, 0.25, 1.3}});
+  CHECK(rig.voxel(5.25, 0.25, 1.25).hits == 3);
+  CHECK(rig.voxel(5.25, 0.25, 1.25).min_height_m == 1.1f);
+}
+
+TEST_CASE("A height of minus zero is zero") {
+  Rig rig;
+  rig.see({{5.25, 0.25, -0.0}});
+  CHECK_FALSE(std::signbit(rig.voxel(5.25, 0.25, 0.25).min_height_m));
+}
+
+TEST_CASE("A voxel of too few hits is free, and its hits stay") {
+  MapperConfig config = half_metre_map();
+  config.layers.min_hits = 2;
+  Rig rig(config);
+  rig.see({{5.25, 0.25, 1.25}, {6.25, 0.25, 1.25}, {6.25, 0.25, 1.3}});
+  CHECK(rig.voxel(5.25, 0.25, 1.25).hits == 1);
+  CHECK(rig.voxel(5.25, 0.25, 1.25).passes == 2);
+  CHECK(rig.column(5.25, 0.25).visibility == 1);
+  CHECK(rig.column(5.25, 0.25).inferred_height == 1.0f);
+  CHECK(rig.column(6.25, 0.25).visibility == 3);
+  rig.see({{5.25, 0.25, 1.45}}, 1'100'000'000);
+  CHECK(rig.column(5.25, 0.25).visibility == 3);
+  CHECK(rig.column(5.25, 0.25).height == 1.25f);
+}
+
+}  // namespace
+}  // namespace gvom::test

@@ -1,28 +1,16 @@
-// Finds the real recordings, which are not in the repository.
+// Opens sources that must, or must not, open.
 #pragma once
 
-#include <cstdlib>
-#include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include <catch2/catch.hpp>
 
 #include "services/ingest/source.hpp"
+#include "tests/support/recordings.hpp"
 
 namespace gvom::test {
-
-/// The folder `data` of the recordings: $GVOM_SHARED/data, else ../shared/data beside the repository.
-/// Nothing, and a loud warning, if there is none.
-inline std::optional<std::string> recordings() {
-  const char* set = std::getenv("GVOM_SHARED");
-  const std::string folder = std::string(set != nullptr ? set : GVOM_SOURCE_DIR "/../shared") + "/data";
-  if (std::filesystem::is_directory(folder)) return folder;
-  WARN("SKIPPED: no recordings at " + folder + " (set GVOM_SHARED)");
-  return std::nullopt;
-}
 
 /// A source that must open.
 inline std::unique_ptr<ingest::Source> open(const std::string& uri, ingest::SourceOptions options = {}) {

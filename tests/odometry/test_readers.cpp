@@ -96,6 +96,31 @@ TEST_CASE("a reader that began anew is not waited for with what it can never get
   CHECK(readers.slowest()->acknowledged == 61);
 }
 
+TEST_CASE("a fusion that began anew is not waited for with the maps that it can never get") {
+  Readers readers({"top"}, kEpoch);
+  readers.take(progress_of("top", 1, 5, 10), 5, 1);
+  readers.take(taken_by_fusion(7, "top", 8), 5, 1);
+  CHECK(readers.outstanding(5) == Names{"fusion took 8 of 10 maps of 'top'"});
+  readers.take(progress_of("fusion", 1), 5, 2);
+  CHECK(readers.outstanding(5).empty());
+  readers.take(progress_of("top", 2, 5, 11), 5, 3);
+  CHECK(readers.outstanding(5) == Names{"fusion took 10 of 11 maps of 'top'"});
+  readers.take(taken_by_fusion(2, "top", 11), 5, 4);
+  CHECK(readers.outstanding(5).empty());
+}
+
+TEST_CASE("who has fallen silent can be left out") {
+  Readers readers({"front", "rear"}, kEpoch);
+  readers.take(progress_of("front", 1, 4), 5, 100);
+  readers.take(progress_of("rear", 1, 4, 1), 5, 200);
+  readers.take(taken_by_fusion(1, "rear", 0), 5, 150);
+  CHECK(readers.outstanding(5).size() == 3);
+  CHECK(readers.outstanding(5, 150) ==
+        Names{"'rear' is at odometry 4 of 5", "fusion took 0 of 1 maps of 'rear'"});
+  CHECK(readers.outstanding(5, 151) == Names{"'rear' is at odometry 4 of 5"});
+  CHECK(readers.outstanding(5, 201).empty());
+}
+
 TEST_CASE("the end is reached when ingests have read it and fusion took their maps") {
   Readers readers({"top"}, kEpoch);
   CHECK(readers.outstanding(5).empty());  // nobody there, nobody to wait for

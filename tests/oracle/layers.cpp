@@ -114,7 +114,8 @@ void fit_plane(const MapperConfig& config, int x, int y, Layers& out) {
 
 // The height that the search in the direction (dx, dy) finds, or NaN (R13).
 float search(const MapperConfig& config, const Layers& layers, int x, int y, int dx, int dy) {
-  for (int i = 1; i <= config.layers.search_distance; ++i) {
+  const int to_edge = layers.n;  // farther on no cell has a height
+  for (int i = 1; i <= std::min(config.layers.search_distance, to_edge); ++i) {
     for (int aside = 0; aside <= i; ++aside)
       for (const int offset : {-aside, aside}) {
         const float found =

@@ -20,6 +20,7 @@ struct Options {
   std::string odometry;
   std::string out;
   bool voxels = false;
+  bool no_deskew = false;
 };
 
 // `NAME=URI` for the vehicle's lidars; the exit code for what is wrong with them.
@@ -54,7 +55,7 @@ tl::expected<void, std::string> write_map(gvom::tools::OfflineMapper& mapper,
 }
 
 int run(const gvom::services::VehicleConfig& config, const Options& options) {
-  auto mapper = gvom::tools::OfflineMapper::open(config, options.odometry);
+  auto mapper = gvom::tools::OfflineMapper::open(config, options.odometry, !options.no_deskew);
   if (!mapper) {
     spdlog::error("{}", mapper.error());
     return to_int(ExitCode::bad_data);
@@ -97,6 +98,8 @@ int main(int argc, char** argv) {
                        "tum:FILE, or static: the vehicle stands at the origin (default: odometry.source)");
   cli.app().add_option("--out", options.out, "folder for the maps, 000000 and up");
   cli.app().add_flag("--voxels", options.voxels, "write the fused voxels too");
+  cli.app().add_flag("--no-deskew", options.no_deskew,
+                     "give all returns of a sweep its stamp (R3 off, for comparison)");
   auto config = cli.parse(argc, argv);
   if (!config) return to_int(config.error());
   if (options.out.empty()) {

@@ -1,5 +1,6 @@
 #include "tools/map/offline.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "services/common/tum.hpp"
@@ -14,15 +15,17 @@ constexpr std::int64_t kLongAgo_ns = -4'000'000'000'000'000'000;
 }  // namespace
 
 tl::expected<OfflineMapper, std::string> OfflineMapper::open(const services::VehicleConfig& config,
-                                                             const std::string& odometry) {
+                                                             const std::string& odometry, bool deskew) {
   OfflineMapper mapper;
+  mapper.deskew_ = deskew;
   mapper.fuser_ = std::make_unique<MapFuser>(config.mapper);
   if (auto added = mapper.add_odometry(odometry); !added) return tl::unexpected(added.error());
   for (const services::LidarConfig& lidar : config.lidars) {
     if (lidar.source.empty()) continue;
     if (auto added = mapper.add_lidar(config, lidar); !added) return tl::unexpected(added.error());
   }
-  if (mapper.lidars_.empty()) return tl::unexpected(std::string("no lidar has a source: give --source NAME=URI"));
+  if (mapper.lidars_.empty())
+    return tl::unexpected(std::string("no lidar has a source: give --source NAME=URI"));
   return mapper;
 }
 
@@ -59,6 +62,7 @@ tl::expected<void, std::string> OfflineMapper::advance(Lidar& lidar) {
   const auto event = lidar.source->next(lidar.sweep, std::chrono::milliseconds(0));
   lidar.ended = !event || *event == ingest::SourceEvent::kEnd;
   if (!event) return tl::unexpected("lidar " + lidar.name + ": " + event.error());
+  if (!deskew_) std::fill(lidar.sweep.times_ns.begin(), lidar.sweep.times_ns.end(), lidar.sweep.stamp_ns);
   return {};
 }
 

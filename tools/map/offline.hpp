@@ -27,9 +27,10 @@ struct MappedSweep {
 class OfflineMapper {
  public:
   /// Opens the source of every lidar that has one. `odometry`: `tum:FILE`, or `static` for a vehicle that
-  /// stands at the origin. Errors say which file and why.
+  /// stands at the origin. Without `deskew` all returns of a sweep take its stamp, to see what that costs.
+  /// Errors say which file and why.
   static tl::expected<OfflineMapper, std::string> open(const services::VehicleConfig& config,
-                                                       const std::string& odometry);
+                                                       const std::string& odometry, bool deskew = true);
 
   /// Maps and fuses the next sweep in order of stamps (ties: by lidar name). Nothing at the end. Sweeps that
   /// the odometry does not bracket are passed over and counted (R3). An error ends one lidar's recording: the
@@ -63,6 +64,7 @@ class OfflineMapper {
   std::unique_ptr<OdometryBuffer> odometry_;
   std::unique_ptr<MapFuser> fuser_;
   std::unordered_map<std::uint64_t, std::unique_ptr<BrickMapStorage>> window_;  // by token
+  bool deskew_ = true;
   std::uint64_t next_token_ = 0;
   std::uint64_t without_odometry_ = 0;
   std::uint64_t refused_ = 0;

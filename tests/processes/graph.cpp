@@ -1,0 +1,64 @@
+#include "tests/processes/graph.hpp"
+
+#include <catch2/catch.hpp>
+
+namespace gvom::test {
+
+std::vector<std::string> Vehicle::arguments(const std::vector<std::string>& more) const {
+  std::vector<std::string> result{"--config", file};
+  for (const std::string& set : sets) result.insert(result.end(), {"--set", set});
+  result.insert(result.end(), more.begin(), more.end());
+  return result;
+}
+
+std::vector<std::string> small_map() {
+  return {"map.size_xy=128", "map.size_z=32", "window.buffer_size=4", "ipc.max_planners=2"};
+}
+
+Graph::Graph(Vehicle vehicle) : vehicle_(std::move(vehicle)), roudi_(start("gvom-roudi", {})) {
+  const bool up = roudi_->says("is up");
+  INFO(roudi_->output());
+  REQUIRE(up);
+}
+
+std::unique_ptr<Program> Graph::start(const std::string& name,
+                                      const std::vector<std::string>& arguments) const {
+  return std::make_unique<Program>(name, vehicle_.arguments(arguments), vehicle_.folder);
+}
+
+void Graph::start_fusion() {
+  fusion_ = start("gvom-fusion", {});
+}
+
+void Graph::start_ingest(const std::string& lidar) {
+  ingests_[lidar] = start("gvom-ingest", {"--lidar", lidar});
+}
+
+void Graph::start_readers() {
+  start_fusion();
+  for (const std::string& lidar : vehicle_.lidars) start_ingest(lidar);
+}
+
+std::unique_ptr<Program> Graph::replay(const std::vector<std::string>& arguments) const {
+  return start("gvom-odometry", arguments);
+}
+
+void Graph::play_through(const std::string& rate) const {
+  const auto odometry = replay({"--rate", rate});
+  const int code = odometry->wait();
+  INFO(odometry->output());
+  REQUIRE(code == 0);
+}
+
+void Graph::stop(int signal) {
+  const auto end = [&](const std::string& name, Program& program) {
+    const int code = program.stop(signal);
+    INFO(name << ": " << program.output());
+    CHECK(code == 0);
+  };
+  for (auto& [lidar, ingest] : ingests_) end("gvom-ingest " + lidar, *ingest);
+  if (fusion_) end("gvom-fusion", *fusion_);
+  end("gvom-roudi", *roudi_);
+}
+
+}  // namespace gvom::test

@@ -1,0 +1,30 @@
+// What the processes replay: a simulated drive, or the real street if it is there.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "tests/processes/graph.hpp"
+
+namespace gvom::test {
+
+/// The simulated vehicle of two lidars, `front` and `rear`, and its drive of so many seconds in FOLDER.
+Vehicle simulated(const std::string& folder, double seconds);
+
+/// A vehicle with the simulated one's lidar `front` alone, its recording made by `simulated` in FOLDER.
+Vehicle front_only(const std::string& folder);
+
+/// The folder of the KITTI recording. Nothing, and a loud warning, if it is not there.
+std::optional<std::string> kitti_recording();
+
+/// The KITTI car with its one lidar `top`; logs go to FOLDER.
+Vehicle kitti(const std::string& folder, const std::string& recording);
+
+/// One lidar each, all at the place of KITTI's: `sources` are names and URIs.
+Vehicle roof_lidars(const std::string& folder, const std::string& odometry,
+                    const std::vector<std::pair<std::string, std::string>>& sources);
+
+/// A plain scans folder of the drive in FOLDER's front lidar: FOLDER/scans, one stamp for each sweep.
+std::string scans_of_simulated(const std::string& folder);
+
+}  // namespace gvom::test

@@ -1,0 +1,131 @@
+// A replay through the processes gives the bytes of gvom-map, at any speed, however the sweeps are dealt out.
+#include <catch2/catch.hpp>
+
+#include <filesystem>
+#include <fstream>
+
+#include "tests/processes/observer.hpp"
+#include "tests/processes/recordings.hpp"
+#include "tests/tools/temporary_folder.hpp"
+
+using namespace gvom::test;
+using gvom::ipc::test::eventually;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Maps that the ingests say they made, of all the sweeps that came to them.
+void check_all_mapped(Graph& graph, int expected_maps) {
+  int mapped = 0;
+  for (const std::string& lidar : graph.vehicle().lidars) {
+    const std::string output = graph.ingest(lidar).output();
+    INFO(output);
+    const auto numbers = numbers_before(output, "sweeps mapped");
+    REQUIRE(numbers.size() == 2);
+    CHECK(numbers[0] == numbers[1]);
+    mapped += numbers[0];
+  }
+  CHECK(mapped == expected_maps);
+  const std::string output = graph.fusion().output();
+  INFO(output);
+  CHECK(numbers_before(output, "maps fused") == std::vector<int>{expected_maps});
+  CHECK(numbers_before(output, "layers published") == std::vector<int>{expected_maps});
+}
+
+/// Replays the vehicle's recording through the processes and compares the layers at its end.
+void check_replay(const Vehicle& vehicle, const std::string& rate, const std::string& expected_maps) {
+  INFO("--rate " << rate);
+  const std::string pictures = vehicle.folder + "/pictures-" + rate;
+  Graph graph(vehicle);
+  graph.start_readers();
+  const auto snapshot = graph.start("gvom-snapshot", {"--out", pictures, "--final", "--npy"});
+  graph.play_through(rate);
+  const int code = snapshot->stop();
+  INFO(snapshot->output());
+  REQUIRE(code == 0);
+  graph.stop();
+  CHECK(differences(last_map(expected_maps), last_map(pictures)) == "");
+  check_all_mapped(graph, map_count(expected_maps));
+}
+
+/// A scans folder with the returns of another whose y is positive, or the rest of them.
+void split_scans(const std::string& from, const std::string& to, bool left) {
+  fs::create_directories(to);
+  fs::copy_file(from + "/times.txt", to + "/times.txt");
+  const std::string scans = fs::exists(from + "/velodyne") ? from + "/velodyne" : from;
+  for (const auto& entry : fs::directory_iterator(scans)) {
+    if (entry.path().extension() != ".bin") continue;
+    std::ifstream in(entry.path(), std::ios::binary);
+    std::ofstream out(to / entry.path().filename(), std::ios::binary);
+    float point[4];
+    while (in.read(reinterpret_cast<char*>(point), sizeof point))
+      if ((point[1] > 0) == left) out.write(reinterpret_cast<const char*>(point), sizeof point);
+  }
+}
+
+/// Replays with somebody on the bus who takes the fused voxels, until they are as expected.
+void check_voxels(Vehicle vehicle, const std::vector<Voxel>& expected) {
+  vehicle.sets.push_back("fusion.voxel_rate_hz=100");
+  Graph graph(vehicle);
+  const Observer observer(vehicle.folder);
+  REQUIRE(observer.is_up());
+  graph.start_readers();
+  graph.play_through("max");
+  const bool same = eventually([&] { return observer.voxels() == expected; });
+  const auto voxels = observer.voxels();
+  const auto different = std::mismatch(voxels.begin(), voxels.end(), expected.begin(), expected.end());
+  INFO(voxels.size() << " voxels came, expected " << expected.size() << "; the first "
+                     << different.first - voxels.begin() << " are the same");
+  CHECK(same);
+  graph.stop();
+}
+
+void check_halves(const std::string& folder, const std::string& recording, const std::string& odometry) {
+  split_scans(recording, folder + "/left", true);
+  split_scans(recording, folder + "/right", false);
+  const Vehicle whole = roof_lidars(folder, odometry, {{"whole", "scans:" + recording}});
+  const std::string whole_map = last_map(map_offline(whole, "whole_maps"));
+  const auto expected = voxels_of(whole_map);
+  REQUIRE(expected.size() > 10000);
+  check_voxels(whole, expected);
+
+  const Vehicle halves = roof_lidars(
+      folder, odometry, {{"left", "scans:" + folder + "/left"}, {"right", "scans:" + folder + "/right"}});
+  const std::string halves_map = last_map(map_offline(halves, "halves_maps"));
+  CHECK(voxels_of(halves_map) == expected);
+  CHECK(differences(whole_map, halves_map) == "maps_in_window ");
+  check_voxels(halves, expected);
+}
+
+}  // namespace
+
+TEST_CASE("a simulated drive of two lidars ends in the same layers at any speed") {
+  const TemporaryFolder folder;
+  const Vehicle vehicle = simulated(folder.path(), 2);
+  const std::string expected = map_offline(vehicle, "maps");
+  CHECK(map_count(expected) == 40);
+  for (const char* rate : {"1", "4", "max"}) check_replay(vehicle, rate, expected);
+}
+
+TEST_CASE("the real street ends in the same layers at any speed") {
+  const auto recording = kitti_recording();
+  if (!recording) return;
+  const TemporaryFolder folder;
+  const Vehicle vehicle = kitti(folder.path(), *recording);
+  const std::string expected = map_offline(vehicle, "maps");
+  CHECK(map_count(expected) == 10);
+  for (const char* rate : {"1", "4", "max"}) check_replay(vehicle, rate, expected);
+}
+
+TEST_CASE("the halves of a simulated sweep through two ingests are the whole through one") {
+  const TemporaryFolder folder;
+  simulated(folder.path(), 1);
+  check_halves(folder.path(), scans_of_simulated(folder.path()), folder.path() + "/odometry.tum");
+}
+
+TEST_CASE("the halves of a real sweep through two ingests are the whole through one") {
+  const auto recording = kitti_recording();
+  if (!recording) return;
+  const TemporaryFolder folder;
+  check_halves(folder.path(), *recording, *recording + "/odometry.tum");
+}

@@ -1,0 +1,131 @@
+// SIGINT and SIGTERM end each process well, whatever it does at that moment.
+#include <catch2/catch.hpp>
+
+#include "tests/ipc/processes.hpp"
+#include "tests/processes/recordings.hpp"
+#include "tests/tools/temporary_folder.hpp"
+
+using namespace gvom::test;
+using gvom::ipc::test::eventually;
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr int kSignals[] = {SIGINT, SIGTERM};
+
+void check_stops(Program& program, int signal) {
+  const int code = program.stop(signal, 5s);
+  INFO("signal " << signal << "\n" << program.output());
+  CHECK(code == 0);
+}
+
+/// Until the process's Progress has been heard of and it waits for more.
+std::unique_ptr<Program> endless_replay(const Graph& graph, const char* rate) {
+  auto odometry = graph.replay({"--rate", rate, "--loop"});
+  return odometry;
+}
+
+bool has_mapped(const std::string& folder, const Graph& graph) {
+  const auto snapshot = graph.start("gvom-snapshot", {"--out", folder + "/first", "--once"});
+  return snapshot->wait() == 0;
+}
+
+}  // namespace
+
+TEST_CASE("each stops well while it waits for the broker") {
+  const TemporaryFolder folder;
+  const Vehicle vehicle = simulated(folder.path(), 0.2);
+  for (const int signal : kSignals) {
+    Program fusion("gvom-fusion", vehicle.arguments(), folder.path());
+    Program ingest("gvom-ingest", vehicle.arguments({"--lidar", "front"}), folder.path());
+    Program odometry("gvom-odometry", vehicle.arguments(), folder.path());
+    std::this_thread::sleep_for(300ms);
+    for (Program* const program : {&fusion, &ingest, &odometry}) {
+      CHECK(program->runs());
+      check_stops(*program, signal);
+    }
+  }
+}
+
+TEST_CASE("each stops well while nothing comes, the broker last") {
+  const TemporaryFolder folder;
+  const Vehicle vehicle = simulated(folder.path(), 0.2);
+  for (const int signal : kSignals) {
+    Graph graph(vehicle);
+    graph.start_fusion();
+    const auto odometry = graph.replay({"--rate", "max"});  // waits for the ingests
+    CHECK(graph.fusion().says("fusing 2 lidars"));
+    std::this_thread::sleep_for(300ms);
+    check_stops(*odometry, signal);
+    graph.start_ingest("front");
+    graph.start_ingest("rear");
+    CHECK(graph.ingest("front").says("front from"));
+    CHECK(graph.ingest("rear").says("rear from"));
+    graph.stop(signal);
+  }
+}
+
+TEST_CASE("each stops well while it maps at the recorded pace") {
+  const TemporaryFolder folder;
+  const Vehicle vehicle = simulated(folder.path(), 1);
+  for (const int signal : kSignals) {
+    Graph graph(vehicle);
+    graph.start_readers();
+    const auto odometry = endless_replay(graph, "1");
+    REQUIRE(has_mapped(folder.path(), graph));
+    check_stops(graph.ingest("front"), signal);  // the others go on meanwhile
+    check_stops(graph.fusion(), signal);
+    check_stops(graph.ingest("rear"), signal);
+    check_stops(*odometry, signal);
+    check_stops(graph.roudi(), signal);
+  }
+}
+
+TEST_CASE("each stops well in a lossless replay, also one that waits for another that is gone") {
+  const TemporaryFolder folder;
+  const Vehicle vehicle = simulated(folder.path(), 1);
+  for (const int signal : kSignals) {
+    Graph graph(vehicle);
+    graph.start_readers();
+    const auto odometry = endless_replay(graph, "max");
+    REQUIRE(has_mapped(folder.path(), graph));
+    check_stops(graph.fusion(), signal);
+    std::this_thread::sleep_for(500ms);  // the ingests now wait for room at fusion, odometry for them
+    check_stops(graph.ingest("front"), signal);
+    check_stops(*odometry, signal);
+    check_stops(graph.ingest("rear"), signal);
+    check_stops(graph.roudi(), signal);
+  }
+}
+
+TEST_CASE("gvom-snapshot and gvom-play stop well") {
+  const TemporaryFolder folder;
+  const Vehicle vehicle = simulated(folder.path(), 1);
+  for (const int signal : kSignals) {
+    Graph graph(vehicle);
+    graph.start_readers();
+    const auto odometry = endless_replay(graph, "1");
+    const auto snapshot = graph.start("gvom-snapshot", {"--out", folder.path() + "/every", "--every", "0.5"});
+    CHECK(snapshot->says("picture 1"));
+    check_stops(*snapshot, signal);
+    Program play("gvom-play", {"front.pcap", "--loop", "--port", "9"}, folder.path());
+    std::this_thread::sleep_for(300ms);
+    check_stops(play, signal);
+    check_stops(*odometry, signal);
+    graph.stop(signal);
+  }
+}
+
+TEST_CASE("where one signal is not enough, a second one ends at once") {
+  const TemporaryFolder folder;
+  Graph graph(simulated(folder.path(), 0.2));
+  graph.roudi().send(SIGSTOP);  // who joins now waits for an answer
+  const auto fusion = graph.start("gvom-fusion", {});
+  std::this_thread::sleep_for(300ms);
+  fusion->send(SIGTERM);
+  std::this_thread::sleep_for(300ms);
+  CHECK(fusion->runs());
+  CHECK(fusion->stop(SIGTERM, 1s) == 128 + SIGTERM);
+  graph.roudi().send(SIGCONT);
+  graph.stop();
+}
