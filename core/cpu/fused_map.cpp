@@ -167,7 +167,7 @@ void FusedMap::subtract_brick(std::uint32_t slot, const BrickMapView& map, std::
       lowest_m = kNoHeight_m;
       --hit_cells_[slot];
     } else if (record.min_height_m == lowest_m) {
-      stale_.push_back({static_cast<std::uint32_t>(cell), hits, lowest_m, 0});
+      stale_.push_back({static_cast<std::uint32_t>(cell), hits, lowest_m});
       lowest_m = kNoHeight_m;
     }
   });
@@ -181,11 +181,10 @@ void FusedMap::restore_minima(const Int3& brick, std::uint32_t slot) {
     const std::int32_t index = map.view.brick_at(brick);
     if (index < 0) continue;
     const std::int32_t* lookup = map.view.lookup + static_cast<std::size_t>(index) * kBrickCells;
-    for (StaleMinimum& stale : stale_) stale.record = lookup[stale.cell];
     for (std::size_t i = stale_.size(); i-- > 0;) {
       StaleMinimum& stale = stale_[i];
-      if (stale.record < 0) continue;
-      const VoxelRecord& record = map.view.records[stale.record];
+      if (lookup[stale.cell] < 0) continue;
+      const VoxelRecord& record = map.view.records[lookup[stale.cell]];
       float& lowest_m = min_height_m_[begin + stale.cell];
       lowest_m = std::min(lowest_m, record.min_height_m);
       stale.hits -= record.hits;

@@ -43,9 +43,8 @@ class FusedMap {
   // A voxel of one brick whose minimum left the window.
   struct StaleMinimum {
     std::uint32_t cell;
-    std::uint32_t hits;   // in maps that are still to be looked at
-    float least_m;        // the minimum that left: none can be lower
-    std::int32_t record;  // of the map in work
+    std::uint32_t hits;  // in maps that are still to be looked at
+    float least_m;       // the minimum that left: none can be lower
   };
 
   void update_brick_column(std::int32_t bx, std::int32_t by, const Change& change);

@@ -9,8 +9,7 @@ namespace gvom::cpu {
 
 namespace {
 
-__attribute__((noinline)) void read_columns(const FusedView& map, const ColumnParameters& p,
-                                            const LayerArrays& out) {
+void read_columns(const FusedView& map, const ColumnParameters& p, const LayerArrays& out) {
   for (std::int32_t y = 0, i = 0; y < map.n_xy; ++y)
     for (std::int32_t x = 0; x < map.n_xy; ++x, ++i) {
       const Column column = read_column(map, p, x, y);

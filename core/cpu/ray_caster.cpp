@@ -28,9 +28,9 @@ constexpr std::uint32_t kTieMargin = 9;
 // brick slot * 512 + cell with its terms gathered.
 struct CastGrid {
   Int3 size;
-  std::int32_t next_y;
-  std::int32_t next_z;
-  std::int32_t outside;  // counter for what falls out of the grid
+  std::uint32_t next_y;
+  std::uint32_t next_z;
+  std::uint32_t outside;  // counter for what falls out of the grid
 };
 
 // A ray with those crossings of each axis after which its own coordinate is inside of the grid.
@@ -41,16 +41,16 @@ struct Ray {
   std::int32_t count[3];
   double from[3];   // voxels
   double along[3];  // voxels
-  int shift;        // a voxel has 2^shift units; the whole ray's coordinates fit into 32 bits
+  int shift;        // a voxel has 2^shift units; with them the whole ray fits into 32 bits
   double units;     // 2^shift
 };
 
 // The nearest whole number, modulo 2^32.
-GVOM_INLINE std::int32_t round_to_32_bits(double value) {
+GVOM_INLINE std::uint32_t round_to_32_bits(double value) {
   const double shifted = value + 0x1.8p52;
   std::int64_t bits;
   __builtin_memcpy(&bits, &shifted, sizeof bits);
-  return static_cast<std::int32_t>(bits);
+  return static_cast<std::uint32_t>(bits);
 }
 
 // Conditions are sign bits: comparisons of whole vectors are not vector instructions everywhere.
@@ -85,23 +85,24 @@ GVOM_INLINE Ints crossings_of_axis(const Ray& ray, const CastGrid& grid, std::ui
   const double to_face = step * (ray.voxel[kAxis] - ray.from[kAxis]) + (step > 0 ? 1 : 0) + ray.first[kAxis];
   const double from_b = ray.from[kB] * ray.units;
   const double from_c = ray.from[kC] * ray.units;
-  const Ints ramp_b = kRamp * round_to_32_bits(step_b);
-  const Ints ramp_c = kRamp * round_to_32_bits(step_c);
+  const Unsigneds ramp_b = (Unsigneds)kRamp * round_to_32_bits(step_b);
+  const Unsigneds ramp_c = (Unsigneds)kRamp * round_to_32_bits(step_c);
   Ints own = ray.voxel[kAxis] + step * (ray.first[kAxis] + 1) + step * kRamp;
   Ints tie{};
   for (std::int32_t k = 0; k < ray.count[kAxis]; k += kLanes) {
-    const Ints b = round_to_32_bits(from_b + step_b * (to_face + k)) + ramp_b;
-    const Ints c = round_to_32_bits(from_c + step_c * (to_face + k)) + ramp_c;
+    const Ints b = (Ints)(ramp_b + round_to_32_bits(from_b + step_b * (to_face + k)));
+    const Ints c = (Ints)(ramp_c + round_to_32_bits(from_c + step_c * (to_face + k)));
     const Ints voxel_b = b >> ray.shift;
     const Ints voxel_c = c >> ray.shift;
     tie |= near_a_face(b, ray.shift) | near_a_face(c, ray.shift);
     const Ints x = kAxis == 0 ? own : voxel_b;
     const Ints y = kAxis == 1 ? own : (kAxis == 0 ? voxel_b : voxel_c);
     const Ints z = kAxis == 2 ? own : voxel_c;
-    const Ints index = (x << 6) + (y << 3) + z + (y >> 3) * grid.next_y + (z >> 3) * grid.next_z;
+    const Unsigneds index = (Unsigneds)((x << 6) + (y << 3) + z) + (Unsigneds)(y >> 3) * grid.next_y +
+                            (Unsigneds)(z >> 3) * grid.next_z;
     const Ints out_of_grid = is_negative(voxel_b | (grid.size[kB] - 1 - voxel_b) | voxel_c |
                                          (grid.size[kC] - 1 - voxel_c) | (ray.count[kAxis] - 1 - k - kRamp));
-    const Ints counter = (index & ~out_of_grid) | (grid.outside & out_of_grid);
+    const Unsigneds counter = (index & (Unsigneds)~out_of_grid) | (grid.outside & (Unsigneds)out_of_grid);
     __builtin_memcpy(out + k, &counter, sizeof counter);
     own += step * kLanes;
   }
@@ -177,8 +178,9 @@ void PassCounters::cast_exactly(const std::int64_t (&from)[3], const std::int64_
 }
 
 void PassCounters::cast(const std::int64_t (&from)[3], const RayEnds& ends) {
-  const CastGrid grid{size_, bricks_[0] * kBrickCells - 64, bricks_[0] * bricks_[1] * kBrickCells - 8,
-                      static_cast<std::int32_t>(outside())};
+  const auto next_y = static_cast<std::uint32_t>(bricks_[0] * kBrickCells - 64);
+  const auto next_z = static_cast<std::uint32_t>(bricks_[0] * bricks_[1] * kBrickCells - 8);
+  const CastGrid grid{size_, next_y, next_z, outside()};
   const Crossed crossed = cross_faces(from, ends, grid, crossed_.data());
   std::uint32_t* const counters = counters_.data();
   std::uint8_t* const touched = touched_.data();

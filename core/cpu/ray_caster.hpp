@@ -25,7 +25,8 @@ class PassCounters {
   explicit PassCounters(const Grid& grid);
 
   /// Adds a pass to every voxel of the grid that the segments go through except each end's own voxel (R5).
-  /// @param from fixed coordinates of where all of them start
+  /// @param from fixed coordinates of where all of them start; within 2^22 voxels, like the ends
+  /// @param ends at least one
   void cast(const std::int64_t (&from)[3], const RayEnds& ends);
 
   /// Index of a voxel's counter; `outside()` where the grid does not reach.

@@ -117,6 +117,7 @@ BrickMapShape Voxelizer::count(const Sweep& sweep, const std::vector<Pose>& T_od
       from[a] = to_fixed(voxel_coordinate(T_odom_sensor.t[a], grid.resolution_m[a]), grid.origin[a]);
     while (r != end && r->time_index == time) {
       r = fill_batch(r, end);
+      if (ends_.count == 0) continue;
       place_points(T_odom_sensor, grid, batch_, ends_);
       for (int i = 0; i < ends_.count; ++i)
         ends_.counter[i] = passes_.index(fixed_voxel(ends_.to[0][i]), fixed_voxel(ends_.to[1][i]),
@@ -135,10 +136,7 @@ void Voxelizer::find_touched_bricks(BrickMapShape& shape) {
   for (std::uint32_t slot = 0; slot < brick_slots_; ++slot) {
     if (!touched[slot]) continue;
     touched[slot] = 0;
-    // A ray that was walked exactly may have left a mark next to its way.
-    const std::uint32_t* counters = passes_.counters() + std::size_t{slot} * kBrickCells;
-    if (std::any_of(counters, counters + kBrickCells, [](std::uint32_t c) { return c != 0; }))
-      bricks_.push_back(slot);
+    bricks_.push_back(slot);
   }
   touched[brick_slots_] = 0;
   shape.brick_count = static_cast<std::uint32_t>(bricks_.size());

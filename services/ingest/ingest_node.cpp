@@ -72,6 +72,7 @@ ExitCode IngestNode::run() {
     publish_progress();
     publish_health();
     broker_.check();
+    while (const auto warning = reader_.new_warning()) spdlog::warn("{}", *warning);
     if (const auto error = reader_.error(); error && reader_.at_end()) {
       spdlog::error("{}", *error);
       code = reader_.is_live() ? ExitCode::unavailable : ExitCode::bad_data;

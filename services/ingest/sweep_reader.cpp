@@ -12,7 +12,10 @@ constexpr std::chrono::milliseconds kPatience{50};  // how soon a stop is notice
 
 SweepReader::SweepReader(std::unique_ptr<Source> source, std::size_t max_returns,
                          std::function<void()> on_change)
-    : source_(std::move(source)), live_(source_->is_live()), on_change_(std::move(on_change)) {
+    : source_(std::move(source)),
+      live_(source_->is_live()),
+      on_change_(std::move(on_change)),
+      warned_(source_->warnings().size()) {
   for (Sweep& sweep : sweeps_) {
     sweep.returns.reserve(max_returns);
     sweep.times_ns.reserve(max_returns);
@@ -63,6 +66,14 @@ std::optional<std::string> SweepReader::error() const {
   return error_;
 }
 
+std::optional<std::string> SweepReader::new_warning() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (warnings_.empty()) return std::nullopt;
+  std::string warning = std::move(warnings_.front());
+  warnings_.erase(warnings_.begin());
+  return warning;
+}
+
 void SweepReader::rewind() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -111,6 +122,11 @@ void SweepReader::push(Sweep* sweep) {
   queue_[static_cast<std::size_t>((queue_begin_ + queue_count_++) % kSlots)] = sweep;
 }
 
+void SweepReader::note_warnings() {
+  const std::vector<std::string>& all = source_->warnings();
+  while (warned_ < all.size()) warnings_.push_back(all[warned_++]);
+}
+
 void SweepReader::run() {
   std::unique_lock<std::mutex> lock(mutex_);
   while (wait_for_slot(lock)) {
@@ -121,6 +137,7 @@ void SweepReader::run() {
     const auto event = source_->next(*sweep, kPatience);
     lock.lock();
     counters_ = source_->counters();
+    note_warnings();
     const bool whole = event && *event == SourceEvent::kSweep && !rewind_;
     if (whole) {
       push(sweep);

@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "services/ingest/source.hpp"
 
@@ -36,6 +37,8 @@ class SweepReader {
   [[nodiscard]] bool at_end() const;
   /// Why the source ended, if not in the normal way. Sweeps before it are in the queue.
   [[nodiscard]] std::optional<std::string> error() const;
+  /// What the source wants a person to hear of, that it found only while it read; each once.
+  std::optional<std::string> new_warning();
   /// A recording from its beginning again; what is in the queue is thrown away.
   void rewind();
 
@@ -51,6 +54,7 @@ class SweepReader {
   void run();
   bool wait_for_slot(std::unique_lock<std::mutex>& lock);
   void push(Sweep* sweep);
+  void note_warnings();
 
   std::unique_ptr<Source> source_;
   const bool live_;
@@ -69,6 +73,8 @@ class SweepReader {
   bool ended_ = false;
   std::uint64_t overruns_ = 0;
   std::optional<std::string> error_;
+  std::vector<std::string> warnings_;  // not taken yet
+  std::size_t warned_;                 // of the source's, those that were noted
   SourceCounters counters_;
   std::atomic<std::int64_t> time_hint_ns_{0};
   std::thread thread_;

@@ -13,7 +13,13 @@ namespace {
 std::atomic<std::uint64_t> allocations{0};
 }
 
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define __SANITIZE_ADDRESS__ 1  // as g++ has it
+#endif
+#endif
+
+#ifdef __SANITIZE_ADDRESS__
 constexpr bool kCountsMalloc = false;  // the sanitizer's own malloc must stay
 #else
 constexpr bool kCountsMalloc = true;

@@ -71,10 +71,24 @@ TEST_CASE("A voxel's height is its lowest return's, as float") {
   CHECK(rig.voxel(5.25, 0.25, 1.25).min_height_m == 1.1f);
 }
 
-TEST_CASE("A height of minus zero is zero") {
-  Rig rig;
-  rig.see({{5.25, 0.25, -0.0}});
-  CHECK_FALSE(std::signbit(rig.voxel(5.25, 0.25, 0.25).min_height_m));
+TEST_CASE("A height that rounds to minus zero is zero, in the voxel below") {
+  LidarGeometry lidar;
+  OdometryBuffer odometry(1);
+  odometry.add({0, {}});
+  Sweep sweep;
+  sweep.times_ns = {0};
+  sweep.returns = {{5.25, 0.25, -1e-60, 0}};
+  SweepMapper mapper(half_metre_map(), lidar, 1);
+  BrickMapStorage storage;
+  const auto shape = mapper.count(sweep, odometry);
+  REQUIRE(shape);
+  REQUIRE(shape->record_count == 1);
+  mapper.write(storage.resize(*shape));
+  const BrickMapView map = storage.view(mapper.grid(), 0, mapper.T_odom_base());
+  CHECK(map.records[0].min_height_m == 0);
+  CHECK_FALSE(std::signbit(map.records[0].min_height_m));
+  CHECK(map.brick_at({1, 0, -1}) >= 0);
+  CHECK(map.lookup[map.brick_at({1, 0, -1}) * kBrickCells + static_cast<int>(cell_in_brick(10, 0, -1))] == 0);
 }
 
 TEST_CASE("A voxel of too few hits is free, and its hits stay") {

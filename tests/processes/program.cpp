@@ -76,6 +76,17 @@ int Program::kill() {
   return code_;
 }
 
+int Program::kill_asleep() {
+  const auto asleep = [this] {
+    std::string stat;
+    std::getline(std::ifstream("/proc/" + std::to_string(pid_) + "/stat"), stat);
+    const auto name_end = stat.rfind(')');
+    return name_end != std::string::npos && stat.compare(name_end, 3, ") S") == 0;
+  };
+  eventually(asleep);
+  return kill();
+}
+
 bool Program::runs() {
   return !reap(WNOHANG);
 }

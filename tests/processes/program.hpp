@@ -26,6 +26,9 @@ class Program {
   int stop(int signal = SIGTERM, std::chrono::milliseconds patience = std::chrono::seconds(10));
   void send(int signal) const;
   int kill();
+  /// As kill(), but while its main thread sleeps: in iceoryx 2.0 a process that dies within publish() leaves
+  /// locks behind that the broker then waits for.
+  int kill_asleep();
 
   [[nodiscard]] bool runs();
   [[nodiscard]] bool says(const std::string& words,

@@ -63,9 +63,9 @@ void split_scans(const std::string& from, const std::string& to, bool left) {
   }
 }
 
-/// Replays with somebody on the bus who takes the fused voxels, until they are as expected.
-void check_voxels(Vehicle vehicle, const std::vector<Voxel>& expected) {
-  vehicle.sets.push_back("fusion.voxel_rate_hz=100");
+/// Replays with somebody on the bus who takes the fused voxels (twice a second, the last ones in any case),
+/// until they are as expected.
+void check_voxels(const Vehicle& vehicle, const std::vector<Voxel>& expected) {
   Graph graph(vehicle);
   const Observer observer(vehicle.folder);
   REQUIRE(observer.is_up());

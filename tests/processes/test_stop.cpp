@@ -19,12 +19,11 @@ void check_stops(Program& program, int signal) {
   CHECK(code == 0);
 }
 
-/// Until the process's Progress has been heard of and it waits for more.
 std::unique_ptr<Program> endless_replay(const Graph& graph, const char* rate) {
-  auto odometry = graph.replay({"--rate", rate, "--loop"});
-  return odometry;
+  return graph.replay({"--rate", rate, "--loop"});
 }
 
+/// Waits for the first layers.
 bool has_mapped(const std::string& folder, const Graph& graph) {
   const auto snapshot = graph.start("gvom-snapshot", {"--out", folder + "/first", "--once"});
   return snapshot->wait() == 0;

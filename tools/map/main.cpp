@@ -54,21 +54,28 @@ tl::expected<void, std::string> write_map(gvom::tools::OfflineMapper& mapper,
   return written ? gvom::tools::write_meta(folder, mapper, sweep) : written;
 }
 
+/// Those that came since the last call; `told`: for each lidar, how many were said.
+void say_warnings(const gvom::tools::OfflineMapper& mapper, std::vector<std::size_t>& told) {
+  for (std::size_t i = 0; i < told.size(); ++i) {
+    const auto& lidar = mapper.lidars()[i];
+    const std::vector<std::string>& warnings = lidar.source->warnings();
+    while (told[i] < warnings.size()) spdlog::warn("lidar {}: {}", lidar.name, warnings[told[i]++]);
+  }
+}
+
 int run(const gvom::services::VehicleConfig& config, const Options& options) {
   auto mapper = gvom::tools::OfflineMapper::open(config, options.odometry, !options.no_deskew);
   if (!mapper) {
     spdlog::error("{}", mapper.error());
     return to_int(ExitCode::bad_data);
   }
-  for (const auto& lidar : mapper->lidars())
-    for (const std::string& warning : lidar.source->warnings())
-      spdlog::warn("lidar {}: {}", lidar.name, warning);
-
+  std::vector<std::size_t> told(mapper->lidars().size(), 0);
   gvom::tools::LayerBuffers layers(config.mapper.map.size_xy);
   gvom::tools::MappedSweep sweep;
   int maps = 0;
   ExitCode code = ExitCode::ok;
   for (;;) {
+    say_warnings(*mapper, told);
     const auto mapped = mapper->next(sweep);
     if (!mapped) {  // one recording broke off; the others go on
       spdlog::error("{}", mapped.error());

@@ -105,7 +105,7 @@ class Listener {
 };
 
 ExitCode say(const summary::RunRecord& record, const std::string& json_path) {
-  std::fputs(summary::report(record).c_str(), stdout);
+  std::printf("\n%s", summary::report(record).c_str());
   std::fflush(stdout);
   if (json_path.empty()) return ExitCode::ok;
   std::ofstream file(json_path);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 namespace gvom::summary {
 
@@ -118,7 +119,10 @@ std::string fusion_lines(const RunRecord& record) {
 std::string process_table(const RunRecord& record) {
   std::string text = fmt::format("{:<24}{:>8}{:>11}{:>16}{:>13}\n", "process", "CPU", "of a core",
                                  "peak memory", "not shared");
-  for (const ProcessRecord& process : record.processes()) {
+  std::vector<ProcessRecord> processes = record.processes();
+  std::stable_sort(processes.begin(), processes.end(),
+                   [](const auto& a, const auto& b) { return a.name < b.name; });
+  for (const ProcessRecord& process : processes) {
     if (!process.usage) {
       text += fmt::format("{:<24} ended before it was looked at\n", process.name);
       continue;
