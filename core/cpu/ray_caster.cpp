@@ -23,6 +23,8 @@ constexpr Ints kRamp = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
 // A lane's coordinate is a rounded start (off by half a unit) plus at most 15 rounded steps (off by half
 // a unit each); doubles before the rounding are far more exact than that.
 constexpr std::uint32_t kTieMargin = 9;
+// With fewer bits below the voxel the margin is wider than the voxel: such rays reach 2^26 voxels.
+constexpr int kLeastShift = 5;
 
 // The index of a voxel's counter is x * 64 + y * 8 + z + (y / 8) * next_y + (z / 8) * next_z, which is
 // brick slot * 512 + cell with its terms gathered.
@@ -146,6 +148,10 @@ GVOM_CLONES Crossed cross_faces(const std::int64_t (&from)[3], const RayEnds& en
   std::uint32_t* next = out;
   for (int i = 0; i < ends.count; ++i) {
     const Ray ray = make_ray(from, ends, i, grid.size);
+    if (ray.shift < kLeastShift) {
+      crossed.tie[crossed.ties++] = static_cast<std::uint8_t>(i);
+      continue;
+    }
     std::uint32_t* out_y = next + ray.count[0];
     std::uint32_t* out_z = out_y + ray.count[1];
     Ints tie = crossings_of_axis<0>(ray, grid, next);
