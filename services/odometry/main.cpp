@@ -64,13 +64,13 @@ ExitCode replay(const std::vector<StampedPose>& poses, const std::vector<std::st
 }  // namespace
 
 int main(int argc, char** argv) {
+  services::Lifecycle lifecycle;
   services::Cli cli(kName, "Publishes the odometry of a recording: the clock of a replay.");
   Options options;
   add_options(cli.app(), options);
   const auto config = cli.parse(argc, argv);
   if (!config) return to_int(config.error());
 
-  services::Lifecycle lifecycle;
   services::init_logging(kName);
   const std::string& source = options.source.empty() ? config->odometry.source : options.source;
   if (source.empty()) {

@@ -50,11 +50,11 @@ ExitCode serve(const services::VehicleConfig& config, services::Lifecycle& lifec
 }  // namespace
 
 int main(int argc, char** argv) {
+  services::Lifecycle lifecycle;
   services::Cli cli("gvom-roudi", "The shared-memory broker: start it first, stop it last.");
   cli.also_check(check_pools);
   const auto config = cli.parse(argc, argv);
   if (!config) return services::to_int(config.error());
   services::init_logging("gvom-roudi");
-  services::Lifecycle lifecycle;
   return services::to_int(serve(*config, lifecycle));
 }
