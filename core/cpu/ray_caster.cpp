@@ -6,7 +6,7 @@
 #include "core/ray.hpp"
 
 // A ray's face crossings of one axis lie at equal distances, so the voxels behind them are computed
-// sixteen at a time without a branch, from the other two coordinates there. Where one of these comes so
+// several at a time without a branch, from the other two coordinates there. Where one of these comes so
 // near to a face that 32 bits cannot tell the sides, the ray is walked exactly instead: the result is that
 // of `walk_ray`, always.
 
@@ -14,11 +14,13 @@ namespace gvom::cpu {
 
 namespace {
 
-constexpr int kLanes = 16;
-using Ints = std::int32_t __attribute__((vector_size(kLanes * sizeof(std::int32_t))));
-using Unsigneds = std::uint32_t __attribute__((vector_size(kLanes * sizeof(std::uint32_t))));
-
-constexpr Ints kRamp = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+// Numbers that are computed together: as many as the instruction set takes at once, at most 16.
+template <int kLanes>
+struct Vectors {
+  typedef std::int32_t Ints __attribute__((vector_size(kLanes * sizeof(std::int32_t))));
+  typedef std::uint32_t Unsigneds __attribute__((vector_size(kLanes * sizeof(std::uint32_t))));
+};
+constexpr int kMostLanes = 16;
 
 // A lane's coordinate is a rounded start (off by half a unit) plus at most 15 rounded steps (off by half
 // a unit each); doubles before the rounding are far more exact than that.
@@ -55,29 +57,37 @@ GVOM_INLINE std::uint32_t round_to_32_bits(double value) {
   return static_cast<std::uint32_t>(bits);
 }
 
-// Conditions are sign bits: comparisons of whole vectors are not vector instructions everywhere.
-GVOM_INLINE Ints is_negative(Ints value) {
-  return value >> 31;
+// 0, 1, 2, ..
+template <class Ints>
+GVOM_INLINE Ints ascending() {
+  Ints lanes{};
+  for (std::size_t i = 0; i < sizeof(Ints) / sizeof lanes[0]; ++i) lanes[i] = static_cast<std::int32_t>(i);
+  return lanes;
 }
 
+// Conditions are sign bits: comparisons of whole vectors are not vector instructions everywhere.
+template <class Ints>
 GVOM_INLINE bool any_negative(Ints value) {
-  using Longs = std::int64_t __attribute__((vector_size(sizeof(Ints))));
-  const auto longs = (Longs)value;
-  std::int64_t any = 0;
-  for (int i = 0; i < kLanes / 2; ++i) any |= longs[i];
-  return (any & std::int64_t(0x8000000080000000u)) != 0;
+  std::int32_t any = 0;
+  for (std::size_t i = 0; i < sizeof(Ints) / sizeof any; ++i) any |= value[i];
+  return any < 0;
 }
 
 // Negative where a coordinate is less than kTieMargin units from a face.
-GVOM_INLINE Ints near_a_face(Ints coordinate, int shift) {
+template <int kLanes>
+GVOM_INLINE typename Vectors<kLanes>::Ints near_a_face(typename Vectors<kLanes>::Ints coordinate, int shift) {
+  using V = Vectors<kLanes>;
   const std::uint32_t margin = kTieMargin << (32 - shift);
-  const Unsigneds fraction = (Unsigneds)coordinate << (32 - shift);
-  return (Ints)(((fraction + margin) >> 1) - margin);
+  const auto fraction = (typename V::Unsigneds)coordinate << (32 - shift);
+  return (typename V::Ints)(((fraction + margin) >> 1) - margin);
 }
 
 // Writes the counters behind the crossings of an axis in whole vectors; negative lanes had a tie.
-template <int kAxis>
-GVOM_INLINE Ints crossings_of_axis(const Ray& ray, const CastGrid& grid, std::uint32_t* out) {
+template <int kLanes, int kAxis>
+GVOM_INLINE typename Vectors<kLanes>::Ints crossings_of_axis(const Ray& ray, const CastGrid& grid,
+                                                             std::uint32_t* out) {
+  using Ints = typename Vectors<kLanes>::Ints;
+  using Unsigneds = typename Vectors<kLanes>::Unsigneds;
   constexpr int kB = kAxis == 0 ? 1 : 0;
   constexpr int kC = kAxis == 2 ? 1 : 2;
   const std::int32_t step = ray.step[kAxis];
@@ -87,24 +97,26 @@ GVOM_INLINE Ints crossings_of_axis(const Ray& ray, const CastGrid& grid, std::ui
   const double to_face = step * (ray.voxel[kAxis] - ray.from[kAxis]) + (step > 0 ? 1 : 0) + ray.first[kAxis];
   const double from_b = ray.from[kB] * ray.units;
   const double from_c = ray.from[kC] * ray.units;
-  const Unsigneds ramp_b = (Unsigneds)kRamp * round_to_32_bits(step_b);
-  const Unsigneds ramp_c = (Unsigneds)kRamp * round_to_32_bits(step_c);
-  Ints own = ray.voxel[kAxis] + step * (ray.first[kAxis] + 1) + step * kRamp;
+  const Ints ramp = ascending<Ints>();
+  const Unsigneds ramp_b = (Unsigneds)ramp * round_to_32_bits(step_b);
+  const Unsigneds ramp_c = (Unsigneds)ramp * round_to_32_bits(step_c);
+  Ints own = ray.voxel[kAxis] + step * (ray.first[kAxis] + 1) + step * ramp;
   Ints tie{};
   for (std::int32_t k = 0; k < ray.count[kAxis]; k += kLanes) {
     const Ints b = (Ints)(ramp_b + round_to_32_bits(from_b + step_b * (to_face + k)));
     const Ints c = (Ints)(ramp_c + round_to_32_bits(from_c + step_c * (to_face + k)));
     const Ints voxel_b = b >> ray.shift;
     const Ints voxel_c = c >> ray.shift;
-    tie |= near_a_face(b, ray.shift) | near_a_face(c, ray.shift);
+    tie |= near_a_face<kLanes>(b, ray.shift) | near_a_face<kLanes>(c, ray.shift);
     const Ints x = kAxis == 0 ? own : voxel_b;
     const Ints y = kAxis == 1 ? own : (kAxis == 0 ? voxel_b : voxel_c);
     const Ints z = kAxis == 2 ? own : voxel_c;
     const Unsigneds index = (Unsigneds)((x << 6) + (y << 3) + z) + (Unsigneds)(y >> 3) * grid.next_y +
                             (Unsigneds)(z >> 3) * grid.next_z;
-    const Ints out_of_grid = is_negative(voxel_b | (grid.size[kB] - 1 - voxel_b) | voxel_c |
-                                         (grid.size[kC] - 1 - voxel_c) | (ray.count[kAxis] - 1 - k - kRamp));
-    const Unsigneds counter = (index & (Unsigneds)~out_of_grid) | (grid.outside & (Unsigneds)out_of_grid);
+    const Ints excess = voxel_b | (grid.size[kB] - 1 - voxel_b) | voxel_c | (grid.size[kC] - 1 - voxel_c) |
+                        (ray.count[kAxis] - 1 - k - ramp);
+    const auto out_of_grid = (Unsigneds)(excess >> 31);
+    const Unsigneds counter = (index & ~out_of_grid) | (grid.outside & out_of_grid);
     __builtin_memcpy(out + k, &counter, sizeof counter);
     own += step * kLanes;
   }
@@ -142,8 +154,9 @@ struct Crossed {
 
 // Fills `out` with the counters behind all crossings of all rays, but for those in `tie`. Each axis
 // writes whole vectors; what it writes too much, the next one overwrites.
-GVOM_CLONES Crossed cross_faces(const std::int64_t (&from)[3], const RayEnds& ends, const CastGrid& grid,
-                                std::uint32_t* out) {
+template <int kLanes>
+GVOM_INLINE Crossed cross_with_lanes(const std::int64_t (&from)[3], const RayEnds& ends, const CastGrid& grid,
+                                     std::uint32_t* out) {
   Crossed crossed;
   std::uint32_t* next = out;
   for (int i = 0; i < ends.count; ++i) {
@@ -154,9 +167,9 @@ GVOM_CLONES Crossed cross_faces(const std::int64_t (&from)[3], const RayEnds& en
     }
     std::uint32_t* out_y = next + ray.count[0];
     std::uint32_t* out_z = out_y + ray.count[1];
-    Ints tie = crossings_of_axis<0>(ray, grid, next);
-    tie |= crossings_of_axis<1>(ray, grid, out_y);
-    tie |= crossings_of_axis<2>(ray, grid, out_z);
+    typename Vectors<kLanes>::Ints tie = crossings_of_axis<kLanes, 0>(ray, grid, next);
+    tie |= crossings_of_axis<kLanes, 1>(ray, grid, out_y);
+    tie |= crossings_of_axis<kLanes, 2>(ray, grid, out_z);
     if (!any_negative(tie))
       next = out_z + ray.count[2];
     else
@@ -166,6 +179,26 @@ GVOM_CLONES Crossed cross_faces(const std::int64_t (&from)[3], const RayEnds& en
   return crossed;
 }
 
+#ifdef GVOM_CLONE_FOR
+GVOM_CLONE_FOR("arch=x86-64-v4")
+Crossed cross_faces(const std::int64_t (&from)[3], const RayEnds& ends, const CastGrid& grid,
+                    std::uint32_t* out) {
+  return cross_with_lanes<16>(from, ends, grid, out);
+}
+
+GVOM_CLONE_FOR("arch=x86-64-v3")
+Crossed cross_faces(const std::int64_t (&from)[3], const RayEnds& ends, const CastGrid& grid,
+                    std::uint32_t* out) {
+  return cross_with_lanes<8>(from, ends, grid, out);
+}
+#endif
+
+GVOM_CLONE_DEFAULT
+Crossed cross_faces(const std::int64_t (&from)[3], const RayEnds& ends, const CastGrid& grid,
+                    std::uint32_t* out) {
+  return cross_with_lanes<4>(from, ends, grid, out);
+}
+
 }  // namespace
 
 PassCounters::PassCounters(const Grid& grid)
@@ -173,7 +206,7 @@ PassCounters::PassCounters(const Grid& grid)
       bricks_(grid.bricks()),
       counters_((std::size_t{grid.brick_slots()} + 1) * kBrickCells),
       touched_(std::size_t{grid.brick_slots()} + 1),
-      crossed_(kRayBatch * (static_cast<std::size_t>(size_[0]) + size_[1] + size_[2]) + kLanes) {}
+      crossed_(kRayBatch * (static_cast<std::size_t>(size_[0]) + size_[1] + size_[2]) + kMostLanes) {}
 
 void PassCounters::cast_exactly(const std::int64_t (&from)[3], const std::int64_t (&to)[3]) {
   walk_ray(from, to, [this](std::int32_t x, std::int32_t y, std::int32_t z) {
