@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "core/grid.hpp"
 #include "core/pose.hpp"
@@ -50,16 +51,26 @@ struct BrickMapView {
   const std::int32_t* lookup = nullptr;
   const std::uint64_t* columns = nullptr;
   const VoxelRecord* records = nullptr;
+  /// Where the four arrays lie in one piece of memory, in this order, its size is here; else 0. A device
+  /// then fetches them in one copy.
+  std::size_t bytes_in_one = 0;
 
   /// The brick at world brick coordinates, or -1 where the grid or its touched part does not reach.
-  [[nodiscard]] std::int32_t brick_at(const Int3& world_brick) const {
-    const Int3 n = grid.bricks();
-    Int3 b;
-    for (int a = 0; a < 3; ++a) {
-      b[a] = world_brick[a] - grid.origin[a] / kBrickEdge;
-      if (b[a] < 0 || b[a] >= n[a]) return -1;
-    }
-    return directory[brick_slot(b[0], b[1], b[2], n[0], n[1])];
+  [[nodiscard]] GVOM_HD std::int32_t brick_at(const Int3& world_brick) const {
+    const std::int32_t slot = grid.slot_of_brick(world_brick);
+    return slot < 0 ? -1 : directory[slot];
+  }
+
+  /// What the map says of a world voxel; without hits `min_height_m` is +infinity.
+  [[nodiscard]] VoxelRecord voxel_at(const Int3& world) const {
+    const std::int32_t brick =
+        brick_at({floor_to_brick(world[0]) / kBrickEdge, floor_to_brick(world[1]) / kBrickEdge,
+                  floor_to_brick(world[2]) / kBrickEdge});
+    if (brick < 0) return {0, 0, std::numeric_limits<float>::infinity()};
+    const std::int32_t value =
+        lookup[static_cast<std::size_t>(brick) * kBrickCells + cell_in_brick(world[0], world[1], world[2])];
+    if (value >= 0) return records[value];
+    return {0, passes_of(value), std::numeric_limits<float>::infinity()};
   }
 };
 

@@ -7,6 +7,7 @@
 #include "core/config.hpp"
 #include "core/fused_view.hpp"
 #include "core/layers.hpp"
+#include "core/window.hpp"
 
 namespace gvom {
 
@@ -109,7 +110,8 @@ GVOM_HD inline Column read_column(const FusedView& map, const ColumnParameters& 
   const std::int32_t ground = lowest_bit(map.occupied + mask, map.words);
   const std::int32_t lowest_free = lowest_bit(map.free + mask, map.words);
   const bool assumed = ground < 0 && under_vehicle(p, x, y);
-  Column out{NAN, NAN, NAN, NAN, NAN, 0, static_cast<std::uint8_t>(Visibility::unobserved)};
+  Column out{
+      kUnknown, kUnknown, kUnknown, kUnknown, kUnknown, 0, static_cast<std::uint8_t>(Visibility::unobserved)};
   if (lowest_free >= 0) {
     out.inferred_height = static_cast<float>((p.origin[2] + lowest_free) * p.resolution_z_m);
     out.visibility = static_cast<std::uint8_t>(Visibility::free_only);

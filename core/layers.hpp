@@ -3,9 +3,6 @@
 
 #include <cstdint>
 
-#include "core/grid.hpp"
-#include "core/pose.hpp"
-
 namespace gvom {
 
 /// Bits of the layer `flags`.
@@ -30,13 +27,9 @@ struct LayerArrays {
   std::uint8_t* flags;       ///< ColumnFlag (R9, R11, R12, R13).
   std::uint8_t* visibility;  ///< Visibility (R15).
   std::uint8_t* cost;        ///< costmap_2d convention (R16).
-};
-
-/// Of what moment the layers are: the newest map's.
-struct LayerMoment {
-  Grid grid;
-  std::int64_t stamp_ns = 0;
-  Pose T_odom_base;
+  /// Where all of them lie in one piece of memory with nothing of value between them, `height` first, its
+  /// size is here; else 0. A device then delivers them in one copy.
+  std::size_t bytes_in_one = 0;
 };
 
 }  // namespace gvom

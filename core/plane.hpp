@@ -63,7 +63,7 @@ GVOM_HD inline double squared_residual(const PlaneFit& fit, std::int32_t dx, std
 /// The layers of a fitted plane (R12).
 GVOM_HD inline Plane plane_layers(const PlaneFit& fit, std::int32_t n, double squares_m2, double resolution_m,
                                   double threshold_rad) {
-  if (!fit.defined) return {NAN, NAN, NAN, NAN, false};
+  if (!fit.defined) return {kUnknown, kUnknown, kUnknown, kUnknown, false};
   const double slope_x = fit.a / resolution_m, slope_y = fit.b / resolution_m;
   const double slope = arctangent(std::sqrt(slope_x * slope_x + slope_y * slope_y));
   return {static_cast<float>(slope_x), static_cast<float>(slope_y), static_cast<float>(slope),

@@ -1,8 +1,18 @@
 // Marks functions that a GPU back end compiles for the device too.
 #pragma once
 
+#include <limits>
+
 #ifdef __CUDACC__
 #define GVOM_HD __host__ __device__
 #else
 #define GVOM_HD
 #endif
+
+namespace gvom {
+
+/// An unknown value of a layer. A constant of the compiler, 0x7fc00000: what a processor makes of 0 / 0
+/// differs between a CPU and a GPU.
+inline constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+
+}  // namespace gvom

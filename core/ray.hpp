@@ -60,13 +60,13 @@ GVOM_HD inline bool crosses_first(const RayAxis& a, const RayAxis& b) {
 }
 
 /// Calls `visit(x, y, z)` for every voxel that the segment goes through, first to last, except the
-/// voxel of its end. `from` and `to` are fixed coordinates.
+/// voxel of its end, until that says false. `from` and `to` are fixed coordinates.
 template <class Visit>
 GVOM_HD void walk_ray(const std::int64_t (&from)[3], const std::int64_t (&to)[3], Visit&& visit) {
   RayAxis axes[3] = {ray_axis(from[0], to[0]), ray_axis(from[1], to[1]), ray_axis(from[2], to[2])};
   for (std::int64_t left = std::int64_t{axes[0].crossings} + axes[1].crossings + axes[2].crossings; left > 0;
        --left) {
-    visit(axes[0].voxel, axes[1].voxel, axes[2].voxel);
+    if (!visit(axes[0].voxel, axes[1].voxel, axes[2].voxel)) return;
     const int xy = crosses_first(axes[0], axes[1]) ? 0 : 1;
     const int next = crosses_first(axes[xy], axes[2]) ? xy : 2;
     axes[next].voxel += axes[next].step;

@@ -18,6 +18,7 @@ struct WindowMap {
   BrickMapView view;
   int lidar = 0;            ///< Index of the lidar, 0 .. kMaxLidars - 1.
   std::uint64_t token = 0;  ///< The owner's handle; handed back when the map has left.
+  std::uint32_t place = 0;  ///< The back end's own handle.
 };
 
 enum class AddResult {
@@ -25,6 +26,13 @@ enum class AddResult {
   too_old,     ///< Older than `max_age` before the newest stamp, or than the lidar's last maps.
   duplicate,   ///< The lidar's map of this stamp is there.
   wrong_grid,  ///< Another size or resolution.
+};
+
+/// Of what moment the fused map and its layers are (R7).
+struct LayerMoment {
+  Grid grid;
+  std::int64_t stamp_ns = 0;
+  Pose T_odom_base;
 };
 
 /// The set of maps of R7, newest first. It depends on which maps came, not on their order. Allocates at
@@ -53,5 +61,11 @@ class Window {
   std::vector<WindowMap> left_;
   std::array<int, kMaxLidars> counts_{};
 };
+
+/// The newest map's moment. The window must not be empty.
+inline LayerMoment newest_moment(const Window& window) {
+  const BrickMapView& newest = window.maps().front().view;
+  return {newest.grid, newest.stamp_ns, newest.T_odom_base};
+}
 
 }  // namespace gvom

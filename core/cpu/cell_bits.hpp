@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "core/config.hpp"
+#include "core/cell.hpp"
 
 #ifdef __SSE2__
 #include <emmintrin.h>
@@ -59,7 +59,7 @@ void for_each_cell(const CellBits& bits, Visit&& visit) {
 template <int sign>
 void add_free_passes(const std::int32_t* lookup, std::uint32_t* passes) {
   for (int i = 0; i < kBrickCells; ++i) {
-    const auto free = static_cast<std::uint32_t>(~lookup[i] & (lookup[i] >> 31));
+    const std::uint32_t free = free_passes(lookup[i]);
     passes[i] += sign > 0 ? free : 0 - free;
   }
 }

@@ -1,7 +1,6 @@
 #include "core/cpu/fused_map.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "core/cpu/cell_bits.hpp"
 
@@ -9,23 +8,12 @@ namespace gvom::cpu {
 
 namespace {
 
-constexpr float kNoHeight_m = std::numeric_limits<float>::infinity();
-
 Grid empty_grid(const MapConfig& map) {
   return grid_around(map, Eigen::Vector3d::Zero());
 }
 
 std::int32_t brick_origin(const Grid& grid, int axis) {
   return grid.origin[static_cast<std::size_t>(axis)] / kBrickEdge;
-}
-
-bool holds_brick(const Grid& grid, const Int3& brick) {
-  const Int3 n = grid.bricks();
-  for (std::size_t a = 0; a < 3; ++a) {
-    const std::int32_t b = brick[a] - grid.origin[a] / kBrickEdge;
-    if (b < 0 || b >= n[a]) return false;
-  }
-  return true;
 }
 
 }  // namespace
@@ -95,7 +83,7 @@ void FusedMap::update_brick_column(std::int32_t bx, std::int32_t by, const Chang
   for (std::int32_t bz = low; bz < low + grid_.bricks()[2]; ++bz) {
     const Int3 brick{bx, by, bz};
     const std::uint32_t slot = slot_of(brick);
-    const bool enters = !holds_brick(change.before, brick);
+    const bool enters = change.before.slot_of_brick(brick) < 0;
     entered |= enters;
     bool changed = enters || change.moved_in_z;
     if (enters)
@@ -146,9 +134,7 @@ void FusedMap::add_brick(std::uint32_t slot, const BrickMapView& map, std::int32
   for_each_cell(at_least(lookup, 0), [&](std::size_t cell) {
     const VoxelRecord& record = map.records[lookup[cell]];
     if (hits_[begin + cell] == 0) ++hit_cells_[slot];
-    hits_[begin + cell] += record.hits;
-    passes_[begin + cell] += record.passes;
-    min_height_m_[begin + cell] = std::min(min_height_m_[begin + cell], record.min_height_m);
+    add_record(record, cell_at(begin + cell));
   });
 }
 
@@ -159,17 +145,12 @@ void FusedMap::subtract_brick(std::uint32_t slot, const BrickMapView& map, std::
   add_free_passes<-1>(lookup, passes_.data() + begin);
   for_each_cell(at_least(lookup, 0), [&](std::size_t cell) {
     const VoxelRecord& record = map.records[lookup[cell]];
-    std::uint32_t& hits = hits_[begin + cell];
-    float& lowest_m = min_height_m_[begin + cell];
-    hits -= record.hits;
-    passes_[begin + cell] -= record.passes;
-    if (hits == 0) {
-      lowest_m = kNoHeight_m;
-      --hit_cells_[slot];
-    } else if (record.min_height_m == lowest_m) {
-      stale_.push_back({static_cast<std::uint32_t>(cell), hits, lowest_m});
-      lowest_m = kNoHeight_m;
-    }
+    const FusedCell fused = cell_at(begin + cell);
+    const bool stale = subtract_record(record, fused);
+    if (fused.hits == 0) --hit_cells_[slot];
+    if (!stale) return;
+    stale_.push_back({static_cast<std::uint32_t>(cell), fused.hits, fused.min_height_m});
+    fused.min_height_m = kNoHeight_m;
   });
   restore_minima(world_brick, slot);
 }
@@ -186,7 +167,7 @@ void FusedMap::restore_minima(const Int3& brick, std::uint32_t slot) {
       if (lookup[stale.cell] < 0) continue;
       const VoxelRecord& record = map.view.records[lookup[stale.cell]];
       float& lowest_m = min_height_m_[begin + stale.cell];
-      lowest_m = std::min(lowest_m, record.min_height_m);
+      lowest_m = lower(lowest_m, record.min_height_m);
       stale.hits -= record.hits;
       // All maps that hit this voxel were seen, or none can be lower.
       if (stale.hits != 0 && lowest_m != stale.least_m) continue;

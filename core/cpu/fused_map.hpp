@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/brick_map.hpp"
+#include "core/cell.hpp"
 #include "core/config.hpp"
 #include "core/fused_view.hpp"
 #include "core/window.hpp"
@@ -59,6 +60,7 @@ class FusedMap {
   void refresh_last_seen(std::int32_t bx, std::int32_t by, std::uint64_t columns, std::int64_t newest_ns);
   [[nodiscard]] std::uint64_t observed_columns(const BrickMapView& map, std::int32_t bx,
                                                std::int32_t by) const;
+  FusedCell cell_at(std::size_t i) { return {hits_[i], passes_[i], min_height_m_[i]}; }
   [[nodiscard]] std::uint32_t slot_of(const Int3& world_brick) const;
   [[nodiscard]] std::size_t column_of(std::int32_t bx, std::int32_t by, int column) const;
 

@@ -213,6 +213,7 @@ void PassCounters::cast_exactly(const std::int64_t (&from)[3], const std::int64_
     const std::uint32_t i = index(x, y, z);
     ++counters_[i];
     touched_[i >> 9] = 1;
+    return true;
   });
 }
 

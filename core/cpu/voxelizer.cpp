@@ -1,11 +1,10 @@
 #include "core/cpu/voxelizer.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 
 #include "core/cpu/clones.hpp"
-#include "core/ray.hpp"
+#include "core/returns.hpp"
 
 namespace gvom::cpu {
 
@@ -18,35 +17,15 @@ Grid grid_shape(const MapConfig& map) {
   return grid_around(map, Eigen::Vector3d::Zero());
 }
 
-// A rigid transform as plain numbers, so that every machine adds in the same order.
-struct Transform {
-  double r[3][3];
-  double t[3];
-
-  Transform(const Pose& T_odom_base, const Eigen::Isometry3d& T_base_sensor) {
-    const Eigen::Matrix3d R = T_odom_base.rotation.toRotationMatrix();
-    const Eigen::Matrix3d rotation = R * T_base_sensor.linear();
-    const Eigen::Vector3d translation = R * T_base_sensor.translation() + T_odom_base.translation_m;
-    for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) r[i][j] = rotation(i, j);
-      t[i] = translation[i];
-    }
-  }
-
-  [[nodiscard]] double coordinate(int i, double x, double y, double z) const {
-    return ((r[i][0] * x + r[i][1] * y) + r[i][2] * z) + t[i];
-  }
-};
-
-GVOM_CLONES void place_points(const Transform& T_odom_sensor, const Grid& grid, ReturnBatch& points,
+GVOM_CLONES void place_points(const RigidTransform& T_odom_sensor, const Grid& grid, ReturnBatch& points,
                               RayEnds& ends) {
   for (int i = 0; i < ends.count; ++i) {
     double p[3];
     for (int a = 0; a < 3; ++a) {
       p[a] = T_odom_sensor.coordinate(a, points.x[i], points.y[i], points.z[i]);
-      ends.to[a][i] = to_fixed(voxel_coordinate(p[a], grid.resolution_m[a]), grid.origin[a]);
+      ends.to[a][i] = fixed_in_grid(p[a], grid.resolution_m[a], grid.origin[a]);
     }
-    points.height_m[i] = static_cast<float>(p[2]) + 0.0f;  // -0 and 0 are one height
+    points.height_m[i] = height_of_return(p[2]);
   }
 }
 
@@ -54,8 +33,8 @@ GVOM_CLONES void place_points(const Transform& T_odom_sensor, const Grid& grid, 
 
 Voxelizer::Voxelizer(const MapConfig& map, const LidarGeometry& lidar, const VehicleGeometry& vehicle,
                      std::size_t max_returns)
-    : lidar_(lidar),
-      vehicle_(vehicle),
+    : T_base_sensor_(lidar.T_base_sensor),
+      filter_(lidar, vehicle),
       brick_slots_(grid_shape(map).brick_slots()),
       passes_(grid_shape(map)),
       hit_of_(std::size_t{brick_slots_} * kBrickCells) {
@@ -63,19 +42,20 @@ Voxelizer::Voxelizer(const MapConfig& map, const LidarGeometry& lidar, const Veh
   bricks_.reserve(brick_slots_);
 }
 
-bool Voxelizer::passes_filter(const Return& r, FilterCounts& counts) const {
-  if (!std::isfinite(r.x_m) || !std::isfinite(r.y_m) || !std::isfinite(r.z_m))
-    return ++counts.not_finite, false;
-  const double range_m = std::sqrt((r.x_m * r.x_m + r.y_m * r.y_m) + r.z_m * r.z_m);
-  if (range_m < lidar_.min_range_m) return ++counts.too_near, false;
-  if (range_m > lidar_.max_range_m) return ++counts.too_far, false;
-  if (vehicle_.body) {
-    const Eigen::Vector3d p_base = lidar_.T_base_sensor * Eigen::Vector3d(r.x_m, r.y_m, r.z_m);
-    const bool in_body = (p_base.array() >= vehicle_.body->min_m.array()).all() &&
-                         (p_base.array() <= vehicle_.body->max_m.array()).all();
-    if (in_body) return ++counts.body, false;
+bool Voxelizer::passes_filter(const Return& r) {
+  switch (filter_.judge(r)) {
+    case Verdict::used:
+      return ++filter_counts_.used, true;
+    case Verdict::not_finite:
+      return ++filter_counts_.not_finite, false;
+    case Verdict::too_near:
+      return ++filter_counts_.too_near, false;
+    case Verdict::too_far:
+      return ++filter_counts_.too_far, false;
+    case Verdict::body:
+      break;
   }
-  return ++counts.used, true;
+  return ++filter_counts_.body, false;
 }
 
 void Voxelizer::add_hit(std::uint32_t index, float height_m) {
@@ -97,24 +77,25 @@ const Return* Voxelizer::fill_batch(const Return* r, const Return* end) {
   const std::uint32_t time = r->time_index;
   ends_.count = 0;
   for (; r != end && r->time_index == time && ends_.count < kRayBatch; ++r) {
-    if (!passes_filter(*r, filter_counts_)) continue;
+    if (!passes_filter(*r)) continue;
     const int i = ends_.count++;
     batch_.x[i] = r->x_m, batch_.y[i] = r->y_m, batch_.z[i] = r->z_m;
   }
   return r;
 }
 
-BrickMapShape Voxelizer::count(const Sweep& sweep, const std::vector<Pose>& T_odom_base, const Grid& grid) {
+DeviceExpected<BrickMapShape> Voxelizer::count(const Sweep& sweep, const std::vector<Pose>& T_odom_base,
+                                               const Grid& grid) {
   forget();
   filter_counts_ = {};
-  if (sweep.returns.empty()) return {brick_slots_, 0, 0};
+  if (sweep.returns.empty()) return BrickMapShape{brick_slots_, 0, 0};
   const Return* const end = sweep.returns.data() + sweep.returns.size();
   for (const Return* r = sweep.returns.data(); r != end;) {
     const std::uint32_t time = r->time_index;
-    const Transform T_odom_sensor(T_odom_base[time], lidar_.T_base_sensor);
+    const RigidTransform T_odom_sensor = sensor_in_odom(T_odom_base[time], T_base_sensor_);
     std::int64_t from[3];
     for (int a = 0; a < 3; ++a)
-      from[a] = to_fixed(voxel_coordinate(T_odom_sensor.t[a], grid.resolution_m[a]), grid.origin[a]);
+      from[a] = fixed_in_grid(T_odom_sensor.t[a], grid.resolution_m[a], grid.origin[a]);
     while (r != end && r->time_index == time) {
       r = fill_batch(r, end);
       if (ends_.count == 0) continue;
@@ -142,7 +123,7 @@ void Voxelizer::find_touched_bricks(BrickMapShape& shape) {
   shape.brick_count = static_cast<std::uint32_t>(bricks_.size());
 }
 
-void Voxelizer::write(const BrickMapArrays& out) {
+DeviceExpected<void> Voxelizer::write(const BrickMapArrays& out) {
   std::fill_n(out.directory, brick_slots_, -1);
   std::uint32_t record = 0;
   for (std::uint32_t brick = 0; brick < bricks_.size(); ++brick) {
@@ -167,6 +148,7 @@ void Voxelizer::write(const BrickMapArrays& out) {
   }
   bricks_.clear();
   hits_.clear();
+  return {};
 }
 
 std::uint32_t Voxelizer::write_hits(const BrickMapArrays& out, std::uint32_t slot, std::int32_t* lookup,

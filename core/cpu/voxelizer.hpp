@@ -4,21 +4,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/brick_map.hpp"
-#include "core/config.hpp"
+#include "core/backend.hpp"
 #include "core/cpu/ray_caster.hpp"
-#include "core/sweep.hpp"
 
 namespace gvom::cpu {
-
-/// What the filter (R2) did with a sweep's returns.
-struct FilterCounts {
-  std::uint64_t used = 0;
-  std::uint64_t not_finite = 0;
-  std::uint64_t too_near = 0;
-  std::uint64_t too_far = 0;
-  std::uint64_t body = 0;
-};
 
 /// Returns that passed the filter, number by number: coordinates in the sensor's frame, height in odom,
 /// metres.
@@ -29,22 +18,17 @@ struct ReturnBatch {
 
 /// Counts one sweep in private memory, then writes it where the caller wants it. All memory is
 /// allocated at construction.
-class Voxelizer {
+class Voxelizer : public VoxelizerBackend {
  public:
   /// @param max_returns room for hits: the returns that a sweep can have
   Voxelizer(const MapConfig& map, const LidarGeometry& lidar, const VehicleGeometry& vehicle,
             std::size_t max_returns);
 
-  /// Counts hits and passes of a sweep (R2..R5); returns the room that its map takes. A map that was
-  /// counted and not written is forgotten.
-  /// @param T_odom_base one pose for each of `sweep.times_ns`
-  BrickMapShape count(const Sweep& sweep, const std::vector<Pose>& T_odom_base, const Grid& grid);
-
-  /// Writes the counted map (R6) and clears the counters for the next.
-  /// @param out arrays of at least the counted shape; every element of that shape is written
-  void write(const BrickMapArrays& out);
-
-  [[nodiscard]] const FilterCounts& filter_counts() const { return filter_counts_; }
+  DeviceExpected<BrickMapShape> count(const Sweep& sweep, const std::vector<Pose>& T_odom_base,
+                                      const Grid& grid) override;
+  /// Also clears the counters for the next sweep.
+  DeviceExpected<void> write(const BrickMapArrays& out) override;
+  [[nodiscard]] const FilterCounts& filter_counts() const override { return filter_counts_; }
 
  private:
   struct Hit {
@@ -52,7 +36,7 @@ class Voxelizer {
     float min_height_m;
   };
 
-  bool passes_filter(const Return& r, FilterCounts& counts) const;
+  bool passes_filter(const Return& r);
   const Return* fill_batch(const Return* r, const Return* end);
   void add_hit(std::uint32_t index, float height_m);
   void find_touched_bricks(BrickMapShape& shape);
@@ -60,8 +44,8 @@ class Voxelizer {
                            std::uint32_t record);
   void forget();
 
-  LidarGeometry lidar_;
-  VehicleGeometry vehicle_;
+  Eigen::Isometry3d T_base_sensor_;
+  ReturnFilter filter_;
   std::uint32_t brick_slots_;
   PassCounters passes_;
   ReturnBatch batch_;

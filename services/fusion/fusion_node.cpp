@@ -78,7 +78,7 @@ FusionNode::~FusionNode() {
 
 services::ExitCode FusionNode::run() {
   services::notify_ready();
-  while (!lifecycle_.stopping()) {
+  while (!lifecycle_.stopping() && failure_.empty()) {
     fuse_arrived();
     const std::int64_t now_ns = ipc::monotonic_ns();
     if (config_.fusion.rate_hz > 0 && tick_due(now_ns)) publish_layers();
@@ -93,10 +93,12 @@ services::ExitCode FusionNode::run() {
     bus_.waiter.wait(timeout);
   }
   services::notify_stopping();
-  health_.set_state(ipc::HealthState::stopping);
+  health_.set_state(ipc::HealthState::stopping, failure_);
   publish_health();
   spdlog::info("{} maps fused, {} layers published", counters_.maps_fused, counters_.layers_out);
-  return services::ExitCode::ok;
+  if (failure_.empty()) return services::ExitCode::ok;
+  spdlog::critical("{}: leaving, to be started again", failure_);
+  return services::ExitCode::try_again;
 }
 
 void FusionNode::fuse_arrived() {
@@ -104,7 +106,7 @@ void FusionNode::fuse_arrived() {
     fuse(*map);
     if (config_.fusion.rate_hz <= 0 ? fresh_ : tick_due(ipc::monotonic_ns())) publish_layers();
     publish_progress();
-    if (lifecycle_.stopping()) return;
+    if (lifecycle_.stopping() || !failure_.empty()) return;
   }
   if (const auto refusal = bus_.inbox.new_refusal()) spdlog::error("{}", *refusal);
 }
@@ -119,17 +121,18 @@ void FusionNode::fuse(const ArrivedMap& map) {
     return bus_.inbox.release(map.token);
   }
   const std::int64_t begin_ns = ipc::monotonic_ns();
-  const AddResult result = fuser_.add({services::view_of(*map.sample), map.lidar, map.token});
-  if (result != AddResult::added) {
-    count_refusal(result);
+  const auto result = fuser_.add({services::view_of(*map.sample), map.lidar, map.token});
+  if (!result) return fail(result.error());
+  if (*result != AddResult::added) {
+    count_refusal(*result);
     return bus_.inbox.release(map.token);
   }
   fused_ns_ = ipc::monotonic_ns();
   counters_.fuse.record_ns(fused_ns_ - begin_ns);
   ++counters_.maps_fused;
   fresh_ = true;
-  if (fuser_.fused().window().maps().front().token == map.token) newest_ = header;
-  for (const WindowMap& left : fuser_.fused().window().left()) bus_.inbox.release(left.token);
+  if (fuser_.window().maps().front().token == map.token) newest_ = header;
+  for (const WindowMap& left : fuser_.window().left()) bus_.inbox.release(left.token);
 }
 
 void FusionNode::begin_epoch(std::uint64_t epoch) {
@@ -141,7 +144,7 @@ void FusionNode::begin_epoch(std::uint64_t epoch) {
   fuser_.reset();
   fresh_ = false;
   voxels_fresh_ = false;
-  for (const WindowMap& left : fuser_.fused().window().left()) bus_.inbox.release(left.token);
+  for (const WindowMap& left : fuser_.window().left()) bus_.inbox.release(left.token);
 }
 
 void FusionNode::count_refusal(AddResult result) {
@@ -162,6 +165,11 @@ void FusionNode::count_refusal(AddResult result) {
   }
 }
 
+// Nothing of this process's map can be trusted any more: it leaves, to be started again.
+void FusionNode::fail(const DeviceError& error) {
+  if (failure_.empty()) failure_ = error.what;
+}
+
 bool FusionNode::tick_due(std::int64_t now_ns) const {
   return fresh_ && now_ns >= next_tick_ns_;
 }
@@ -178,7 +186,7 @@ void FusionNode::publish_layers() {
     log_drops_(spdlog::level::err, "layers are lost: {}", writer.error().message);
     return;
   }
-  fuser_.make_layers(services::arrays_of(*writer));
+  if (const auto made = fuser_.make_layers(services::arrays_of(*writer)); !made) return fail(made.error());
   ipc::Layers& header = writer->header();
   services::set_frame(moment.grid, moment.T_odom_base, header);
   fill_lidars(header);
@@ -198,7 +206,7 @@ void FusionNode::publish_layers() {
 }
 
 void FusionNode::fill_lidars(ipc::Layers& header) const {
-  const Window& window = fuser_.fused().window();
+  const Window& window = fuser_.window();
   header.maps_in_window = static_cast<std::uint32_t>(window.maps().size());
   header.lidar_count = static_cast<std::uint32_t>(bus_.inbox.lidars().size());
   for (std::size_t i = 0; i < bus_.inbox.lidars().size(); ++i) {
@@ -219,8 +227,9 @@ void FusionNode::publish_voxels() {
   if (!bus_.voxels.has_subscribers()) return;
   voxels_fresh_ = false;
   next_voxels_ns_ = now_ns + period_ns(config_.fusion.voxel_rate_hz);
-  const BrickMapShape shape = fuser_.fused().shape();
-  auto writer = bus_.voxels.loan(shape.brick_slots, shape.brick_count, shape.record_count);
+  const auto shape = fuser_.count_voxels();
+  if (!shape) return fail(shape.error());
+  auto writer = bus_.voxels.loan(shape->brick_slots, shape->brick_count, shape->record_count);
   if (!writer) {
     ++counters_.drop_voxels_no_chunk;
     log_drops_(spdlog::level::err, "a voxel map is lost: {}", writer.error().message);
@@ -229,7 +238,8 @@ void FusionNode::publish_voxels() {
   const LayerMoment moment = fuser_.moment();
   services::set_frame(moment.grid, moment.T_odom_base, writer->header());
   writer->header().complete = 1;
-  fuser_.fused().write(services::arrays_of(*writer));
+  if (const auto written = fuser_.write_voxels(services::arrays_of(*writer)); !written)
+    return fail(written.error());
   bus_.voxels.publish(std::move(*writer), moment.stamp_ns, epoch_);
   ++counters_.voxel_maps_out;
 }
@@ -271,7 +281,7 @@ void FusionNode::publish_health() {
   const ipc::Health& health = health_.take(now_ns);
   char status[96];
   std::snprintf(status, sizeof status, "%.1f layers/s, %zu maps in the window", health.rate_hz,
-                fuser_.fused().window().maps().size());
+                fuser_.window().maps().size());
   services::notify_status(status);
   if (!bus_.health.publish(health, newest_.header.stamp_ns, epoch_))
     log_drops_(spdlog::level::warn, "a health message is lost");

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "core/mapper.hpp"
 #include "ipc/brick_map.hpp"
@@ -68,6 +69,7 @@ class FusionNode {
   void fuse(const ArrivedMap& map);
   void begin_epoch(std::uint64_t epoch);
   void count_refusal(AddResult result);
+  void fail(const DeviceError& error);
   [[nodiscard]] bool tick_due(std::int64_t now_ns) const;
   void publish_layers();
   void fill_lidars(ipc::Layers& header) const;
@@ -94,6 +96,7 @@ class FusionNode {
   std::int64_t next_progress_ns_ = 0;
   std::int64_t last_layers_ns_ = 0;
   bool progress_news_ = true;
+  std::string failure_;  // of the back end, for good
 };
 
 }  // namespace gvom::fusion

@@ -35,7 +35,7 @@ IngestCounters::IngestCounters(services::HealthReport& health)
       wait(health.stage("wait_for_odometry")),
       voxelize(health.stage("voxelize")) {}
 
-void IngestCounters::add(const cpu::FilterCounts& filter) {
+void IngestCounters::add(const FilterCounts& filter) {
   returns_used += filter.used;
   drop_return_not_finite += filter.not_finite;
   drop_return_near += filter.too_near;

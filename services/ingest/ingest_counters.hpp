@@ -12,7 +12,7 @@ namespace gvom::ingest {
 struct IngestCounters {
   explicit IngestCounters(services::HealthReport& health);
 
-  void add(const cpu::FilterCounts& filter);
+  void add(const FilterCounts& filter);
   /// Copies what the source and the odometry topic count themselves.
   void copy(const SourceCounters& source, std::uint64_t overruns, std::uint64_t odometry_lost);
 

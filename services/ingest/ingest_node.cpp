@@ -78,10 +78,15 @@ ExitCode IngestNode::run() {
       code = reader_.is_live() ? ExitCode::unavailable : ExitCode::bad_data;
       break;
     }
+    if (!failure_.empty()) {
+      spdlog::critical("{}: leaving, to be started again", failure_);
+      code = ExitCode::try_again;
+      break;
+    }
     bus_.waiter.wait(kLongestWait);
   }
   services::notify_stopping();
-  health_.set_state(ipc::HealthState::stopping);
+  health_.set_state(ipc::HealthState::stopping, failure_);
   publish_health();
   spdlog::info("{} of {} sweeps mapped", counters_.sweeps_mapped, counters_.sweeps_in);
   return code;
@@ -140,7 +145,7 @@ bool IngestNode::map_due_sweeps() {
     map_sweep(*sweep);
     reader_.give_back(sweep);
     front_since_ns_ = 0;
-    if (lifecycle_.stopping()) return true;
+    if (lifecycle_.stopping() || !failure_.empty()) return true;
   }
   return true;
 }
@@ -169,6 +174,7 @@ bool IngestNode::give_up_late_sweep(std::int64_t stamp_ns) {
 void IngestNode::map_sweep(const Sweep& sweep) {
   const std::int64_t begin_ns = ipc::monotonic_ns();
   const auto shape = mapper_.count(sweep, odometry_);
+  if (!shape && shape.error().reason == SweepError::Reason::device) return fail(shape.error().what);
   if (!shape) {
     ++counters_.drop_before_odometry;
     log_drops_(spdlog::level::info, "a sweep began before the odometry: dropped");
@@ -183,6 +189,11 @@ void IngestNode::map_sweep(const Sweep& sweep) {
   services::notify_watchdog();
 }
 
+// The back end is lost for good: this process leaves, to be started again.
+void IngestNode::fail(const std::string& what) {
+  failure_ = what;
+}
+
 bool IngestNode::publish(const Sweep& sweep, const BrickMapShape& shape, std::int64_t begin_ns) {
   auto writer = bus_.maps.loan(shape.brick_slots, shape.brick_count, shape.record_count);
   if (!writer) {
@@ -192,7 +203,7 @@ bool IngestNode::publish(const Sweep& sweep, const BrickMapShape& shape, std::in
   }
   ipc::BrickMap& header = writer->header();
   services::set_frame(mapper_.grid(), mapper_.T_odom_base(), header);
-  const cpu::FilterCounts& filter = mapper_.filter_counts();
+  const FilterCounts& filter = mapper_.filter_counts();
   header.complete = sweep.complete ? 1 : 0;
   header.returns = filter.used;
   header.dropped_not_finite = filter.not_finite;
@@ -203,7 +214,8 @@ bool IngestNode::publish(const Sweep& sweep, const BrickMapShape& shape, std::in
   header.mono_received_ns = sweep.received_ns != 0 ? sweep.received_ns : odometry_came_ns_;
   header.mono_mapped_ns = begin_ns;
   counters_.wait.record_ns(begin_ns - header.mono_received_ns);
-  mapper_.write(services::arrays_of(*writer));
+  if (const auto written = mapper_.write(services::arrays_of(*writer)); !written)
+    return fail(written.error().what), false;
   bus_.maps.publish(std::move(*writer), sweep.stamp_ns, epoch_);
   return true;
 }

@@ -51,6 +51,7 @@ class IngestNode {
   bool map_due_sweeps();
   void map_sweep(const Sweep& sweep);
   bool publish(const Sweep& sweep, const BrickMapShape& shape, std::int64_t begin_ns);
+  void fail(const std::string& what);
   bool give_up_late_sweep(std::int64_t stamp_ns);
   /// Whether the odometry has reached the stamp.
   [[nodiscard]] bool is_due(std::int64_t stamp_ns) const;
@@ -85,6 +86,7 @@ class IngestNode {
   std::uint64_t told_odometry_ = 0;
   std::uint64_t told_maps_ = 0;
   std::int64_t last_map_ns_ = 0;
+  std::string failure_;  // of the back end, for good
 };
 
 }  // namespace gvom::ingest

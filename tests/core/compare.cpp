@@ -175,12 +175,20 @@ std::string difference(const oracle::Layers& layers, const oracle::Layers& expec
   return wrong;
 }
 
-std::string export_difference(const cpu::FusedMap& map, const oracle::Fusion& expected) {
+const cpu::FusedMap* cpu_map(const MapFuser& fuser) {
+  const auto* backend = dynamic_cast<const cpu::Fusion*>(&fuser.backend());
+  return backend == nullptr ? nullptr : &backend->map();
+}
+
+std::string export_difference(MapFuser& fuser, const oracle::Fusion& expected) {
+  const auto shape = fuser.count_voxels();
+  if (!shape) return shape.error().what;
   BrickMapStorage storage;
-  map.write(storage.resize(map.shape()));
+  if (const auto written = fuser.write_voxels(storage.resize(*shape)); !written) return written.error().what;
   const oracle::VoxelBox voxels = expected.voxels();
-  if (map.grid().origin != voxels.grid().origin) return "origin of the fused map";
-  const std::string wrong = difference(storage.view(map.grid(), 0, {}), voxels);
+  const Grid grid = fuser.moment().grid;
+  if (grid.origin != voxels.grid().origin) return "origin of the fused map";
+  const std::string wrong = difference(storage.view(grid, 0, {}), voxels);
   return wrong.empty() ? wrong : "exported: " + wrong;
 }
 

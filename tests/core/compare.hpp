@@ -3,8 +3,7 @@
 
 #include <string>
 
-#include "core/brick_map.hpp"
-#include "core/cpu/fused_map.hpp"
+#include "core/mapper.hpp"
 #include "tests/oracle/fusion.hpp"
 #include "tests/oracle/layers.hpp"
 
@@ -24,6 +23,9 @@ std::string difference(const FusedView& map, const oracle::Fusion& expected, int
 std::string difference(const oracle::Layers& layers, const oracle::Layers& expected);
 
 /// The fused map as it is exported, written to arrays of exactly the size asked for.
-std::string export_difference(const cpu::FusedMap& map, const oracle::Fusion& expected);
+std::string export_difference(MapFuser& fuser, const oracle::Fusion& expected);
+
+/// The map within a fuser that runs on the CPU; null in another.
+const cpu::FusedMap* cpu_map(const MapFuser& fuser);
 
 }  // namespace gvom::test

@@ -1,8 +1,11 @@
 #include "tests/core/rig.hpp"
 
 #include <algorithm>
+#include <catch2/catch.hpp>
 #include <cmath>
 #include <utility>
+
+#include "tests/core/compare.hpp"
 
 namespace gvom::test {
 
@@ -40,19 +43,21 @@ AddResult Rig::see(const Points& points_m, std::int64_t stamp_ns, const Eigen::V
     sweep.returns.push_back({p.x(), p.y(), p.z(), 0});
   }
   auto storage = std::make_unique<BrickMapStorage>();
-  mapper_.write(storage->resize(*mapper_.count(sweep, odometry)));
+  const auto shape = mapper_.count(sweep, odometry);
+  REQUIRE(shape);
+  REQUIRE(mapper_.write(storage->resize(*shape)));
   const BrickMapView view = storage->view(mapper_.grid(), stamp_ns, mapper_.T_odom_base());
-  const AddResult result = fuser_.add({view, 0, next_token_});
+  const AddResult result = fuser_.add({view, 0, next_token_}).value();
   if (result != AddResult::added) return result;
   kept_[next_token_++] = std::move(storage);
-  for (const WindowMap& left : fuser_.fused().window().left()) kept_.erase(left.token);
+  for (const WindowMap& left : fuser_.window().left()) kept_.erase(left.token);
   return result;
 }
 
 ColumnValues Rig::column(double x_m, double y_m) {
   oracle::Layers layers(config_.map.size_xy);
-  fuser_.make_layers(layers.arrays());
-  const Int3& origin = fuser_.fused().grid().origin;
+  REQUIRE(fuser_.make_layers(layers.arrays()));
+  const Int3 origin = fuser_.moment().grid.origin;
   const std::size_t i =
       layers.index(static_cast<int>(std::floor(x_m / config_.map.resolution_xy_m)) - origin[0],
                    static_cast<int>(std::floor(y_m / config_.map.resolution_xy_m)) - origin[1]);
@@ -72,8 +77,8 @@ ColumnValues Rig::column(double x_m, double y_m) {
 }
 
 oracle::Voxel Rig::voxel(double x_m, double y_m, double z_m) const {
-  const Grid& grid = fuser_.fused().grid();
-  const FusedView map = fuser_.fused().view();
+  const Grid grid = fuser_.moment().grid;
+  const FusedView map = cpu_map(fuser_)->view();
   const auto local = [&](std::size_t axis, double m) {
     return static_cast<std::int32_t>(std::floor(m / grid.resolution_m[axis])) - grid.origin[axis];
   };
@@ -82,8 +87,8 @@ oracle::Voxel Rig::voxel(double x_m, double y_m, double z_m) const {
 }
 
 oracle::Voxel Rig::total() const {
-  const FusedView map = fuser_.fused().view();
-  const Int3& size = fuser_.fused().grid().size;
+  const FusedView map = cpu_map(fuser_)->view();
+  const Int3 size = fuser_.moment().grid.size;
   oracle::Voxel sum;
   for (std::size_t i = 0; i < std::size_t(size[0]) * std::size_t(size[1]) * std::size_t(size[2]); ++i) {
     sum.hits += map.hits[i];

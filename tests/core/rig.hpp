@@ -41,7 +41,7 @@ class Rig {
   [[nodiscard]] oracle::Voxel total() const;
 
   [[nodiscard]] const MapFuser& fuser() const { return fuser_; }
-  [[nodiscard]] const cpu::FilterCounts& filter_counts() const { return mapper_.filter_counts(); }
+  [[nodiscard]] const FilterCounts& filter_counts() const { return mapper_.filter_counts(); }
 
  private:
   MapperConfig config_;

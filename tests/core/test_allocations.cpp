@@ -86,15 +86,16 @@ class Drive {
     odometry_.add({sweep_.stamp_ns, pose()});
     const auto shape = mapper_.count(sweep_, odometry_);
     Chunk& chunk = chunks_[steps_ % chunks_.size()];
-    mapper_.write(chunk.arrays());
+    failures_ += !mapper_.write(chunk.arrays());
     const BrickMapView view{
         mapper_.grid(),         sweep_.stamp_ns,     mapper_.T_odom_base(), *shape,
         chunk.directory.data(), chunk.lookup.data(), chunk.columns.data(),  chunk.records.data()};
-    added_ += fuser_.add({view, 0, steps_}) == AddResult::added;
-    fuser_.make_layers(layers_.arrays());
+    added_ += fuser_.add({view, 0, steps_}).value() == AddResult::added;
+    failures_ += !fuser_.make_layers(layers_.arrays());
   }
 
   [[nodiscard]] std::size_t added() const { return added_; }
+  [[nodiscard]] int failures() const { return failures_; }
 
  private:
   [[nodiscard]] Pose pose() const {
@@ -115,6 +116,7 @@ class Drive {
   Random random_{5};
   std::size_t steps_ = 0;
   std::size_t added_ = 0;
+  int failures_ = 0;
   Sweep sweep_;
   OdometryBuffer odometry_;
   SweepMapper mapper_{config(), {}, kReturns};
@@ -135,6 +137,7 @@ TEST_CASE("A thousand sweeps after the first few allocate nothing") {
   const std::uint64_t after = allocations;
   CHECK(after - before == 0);
   CHECK(drive.added() == 1020);
+  CHECK(drive.failures() == 0);
 }
 
 TEST_CASE("The count of allocations counts") {

@@ -26,8 +26,9 @@ class Filter {
     Sweep sweep;
     sweep.times_ns = {0};
     sweep.returns = {{x_m, y_m, z_m, 0}};
-    const BrickMapShape shape = voxelizer.count(sweep, {Pose{}}, grid_around(map, Eigen::Vector3d::Zero()));
-    const cpu::FilterCounts& c = voxelizer.filter_counts();
+    const BrickMapShape shape =
+        voxelizer.count(sweep, {Pose{}}, grid_around(map, Eigen::Vector3d::Zero())).value();
+    const FilterCounts& c = voxelizer.filter_counts();
     REQUIRE(c.used + c.not_finite + c.too_near + c.too_far + c.body == 1);
     REQUIRE((shape.brick_count > 0) == (c.used == 1));
     return c.used ? "used" : c.not_finite ? "not finite" : c.too_near ? "near" : c.too_far ? "far" : "body";

@@ -44,7 +44,7 @@ class Race {
  private:
   void reset() {
     fuser_.reset();
-    for (const WindowMap& left : fuser_.fused().window().left()) kept_.erase(left.token);
+    for (const WindowMap& left : fuser_.window().left()) kept_.erase(left.token);
     REQUIRE(kept_.empty());
     expected_ = oracle::Fusion(scenario_.config.window);
   }
@@ -62,7 +62,7 @@ class Race {
       return;
     }
     auto storage = std::make_unique<BrickMapStorage>();
-    mapper.write(storage->resize(*shape));
+    REQUIRE(mapper.write(storage->resize(*shape)));
     const BrickMapView view = storage->view(mapper.grid(), arrival.sweep.stamp_ns, mapper.T_odom_base());
     REQUIRE(difference(view, *expected) == "");
     check_filter(mapper.filter_counts(), expected->filter);
@@ -70,7 +70,7 @@ class Race {
     fuse({view, arrival.lidar, next_token_}, std::move(storage), *expected);
   }
 
-  static void check_filter(const cpu::FilterCounts& counts, const cpu::FilterCounts& expected) {
+  static void check_filter(const FilterCounts& counts, const FilterCounts& expected) {
     REQUIRE(counts.used == expected.used);
     REQUIRE(counts.not_finite == expected.not_finite);
     REQUIRE(counts.too_near == expected.too_near);
@@ -80,18 +80,18 @@ class Race {
 
   void fuse(const WindowMap& map, std::unique_ptr<BrickMapStorage> storage,
             const oracle::BufferMap& expected) {
-    const bool added = fuser_.add(map) == AddResult::added;
+    const bool added = fuser_.add(map).value() == AddResult::added;
     REQUIRE(added == expected_.add(expected));
     ++(added ? tally_.added : tally_.refused);
     if (added) {
       kept_[next_token_++] = std::move(storage);
-      for (const WindowMap& left : fuser_.fused().window().left()) REQUIRE(kept_.erase(left.token) == 1);
+      for (const WindowMap& left : fuser_.window().left()) REQUIRE(kept_.erase(left.token) == 1);
     }
     REQUIRE(kept_.size() == expected_.window().size());
-    REQUIRE(difference(fuser_.fused().view(), expected_, scenario_.config.layers.min_hits) == "");
-    REQUIRE(export_difference(fuser_.fused(), expected_) == "");
+    REQUIRE(difference(cpu_map(fuser_)->view(), expected_, scenario_.config.layers.min_hits) == "");
+    REQUIRE(export_difference(fuser_, expected_) == "");
     oracle::Layers layers(scenario_.config.map.size_xy);
-    fuser_.make_layers(layers.arrays());
+    REQUIRE(fuser_.make_layers(layers.arrays()));
     REQUIRE(difference(layers, oracle::make_layers(scenario_.config, expected_)) == "");
     for (const std::uint8_t flags : layers.flags) tally_.flags |= flags;
   }

@@ -24,7 +24,10 @@ struct FixedRay {
 
 std::vector<Int3> walk(const FixedRay& ray) {
   std::vector<Int3> voxels;
-  walk_ray(ray.from, ray.to, [&](int x, int y, int z) { voxels.push_back({x, y, z}); });
+  walk_ray(ray.from, ray.to, [&](int x, int y, int z) {
+    voxels.push_back({x, y, z});
+    return true;
+  });
   return voxels;
 }
 

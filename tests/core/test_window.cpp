@@ -144,7 +144,7 @@ TEST_CASE("The order in which maps come changes nothing") {
   in_order.see(a, 1'000'000'000), in_order.see(b, 1'100'000'000, {3, 0, 0}),
       in_order.see(c, 1'200'000'000, {9, 1, 2});
   late.see(c, 1'200'000'000, {9, 1, 2}), late.see(a, 1'000'000'000), late.see(b, 1'100'000'000, {3, 0, 0});
-  CHECK(in_order.fuser().fused().grid().origin == late.fuser().fused().grid().origin);
+  CHECK(in_order.fuser().moment().grid.origin == late.fuser().moment().grid.origin);
   CHECK(in_order.total().hits == late.total().hits);
   for (double x = -1.75; x < 12; x += 0.5)
     for (double y = -4.75; y < 5; y += 0.5) {

@@ -24,7 +24,7 @@ Grid grid_at(const MapConfig& map, const Eigen::Vector3d& vehicle_m) {
 
 // The reason for which a return is dropped, if any (R2).
 std::uint64_t* reason_to_drop(const Return& r, const LidarGeometry& lidar, const VehicleGeometry& vehicle,
-                              cpu::FilterCounts& counts) {
+                              FilterCounts& counts) {
   if (!std::isfinite(r.x_m) || !std::isfinite(r.y_m) || !std::isfinite(r.z_m)) return &counts.not_finite;
   const double range_m = std::sqrt(r.x_m * r.x_m + r.y_m * r.y_m + r.z_m * r.z_m);
   if (range_m < lidar.min_range_m) return &counts.too_near;

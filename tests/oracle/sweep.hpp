@@ -18,7 +18,7 @@ struct BufferMap {
   Pose T_odom_base;
   Grid grid;
   std::vector<WorldVoxel> observed;
-  cpu::FilterCounts filter;
+  FilterCounts filter;
 };
 
 /// The pose at a time between the first and the last of `odometry`, which is in order of time (R3).

@@ -5,6 +5,7 @@
 #include <set>
 #include <string>
 
+#include "core/brick_map_storage.hpp"
 #include "services/common/config_file.hpp"
 #include "tests/support/recordings.hpp"
 #include "tools/map/offline.hpp"
@@ -14,15 +15,18 @@ namespace {
 
 using Voxels = std::set<std::array<std::int32_t, 3>>;
 
-Voxels hit_voxels(const cpu::FusedMap& fused) {
-  const FusedView view = fused.view();
-  const Grid& grid = fused.grid();
+Voxels hit_voxels(MapFuser& fuser) {
+  BrickMapStorage storage;
+  REQUIRE(fuser.write_voxels(storage.resize(fuser.count_voxels().value())));
+  const Grid grid = fuser.moment().grid;
+  const BrickMapView map = storage.view(grid, 0, {});
   Voxels voxels;
   for (std::int32_t z = 0; z < grid.size[2]; ++z)
     for (std::int32_t y = 0; y < grid.size[1]; ++y)
-      for (std::int32_t x = 0; x < grid.size[0]; ++x)
-        if (view.hits[view.cell(x, y, z)] > 0)
-          voxels.insert({grid.origin[0] + x, grid.origin[1] + y, grid.origin[2] + z});
+      for (std::int32_t x = 0; x < grid.size[0]; ++x) {
+        const Int3 world{grid.origin[0] + x, grid.origin[1] + y, grid.origin[2] + z};
+        if (map.voxel_at(world).hits > 0) voxels.insert(world);
+      }
   return voxels;
 }
 
@@ -39,7 +43,7 @@ double overlap_of_first_and_third(const std::string& folder, const std::string& 
   tools::MappedSweep mapped;
   for (Voxels& voxels : sweeps) {
     REQUIRE(mapper->next(mapped).value());
-    voxels = hit_voxels(mapper->fuser().fused());
+    voxels = hit_voxels(mapper->fuser());
   }
   double both = 0;
   for (const auto& voxel : sweeps[0]) both += static_cast<double>(sweeps[2].count(voxel));

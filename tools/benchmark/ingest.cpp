@@ -41,6 +41,7 @@ class StraightLoop {
       fix(p_m, to);
       walk_ray(from, to, [this](std::int32_t x, std::int32_t y, std::int32_t z) {
         if (inside(x, y, z)) ++passes_[index(x, y, z)];
+        return true;
       });
     }
   }
@@ -66,21 +67,13 @@ class StraightLoop {
   std::vector<std::uint32_t> passes_;
 };
 
-std::uint32_t passes_of_voxel(const BrickMapView& map, std::int32_t x, std::int32_t y, std::int32_t z) {
-  const Int3 n = map.grid.bricks();
-  const std::int32_t brick = map.directory[brick_slot(x >> 3, y >> 3, z >> 3, n[0], n[1])];
-  if (brick < 0) return 0;
-  const std::int32_t lookup =
-      map.lookup[static_cast<std::size_t>(brick) * kBrickCells + cell_in_brick(x, y, z)];
-  return lookup >= 0 ? map.records[lookup].passes : passes_of(lookup);
-}
-
 // Adds up the passes of a map; notes whether each voxel's are those of the straight loop.
 void compare(const BrickMapView& map, const StraightLoop& straight, IngestTimes& times) {
   for (std::int32_t x = 0; x < map.grid.size[0]; ++x)
     for (std::int32_t y = 0; y < map.grid.size[1]; ++y)
       for (std::int32_t z = 0; z < map.grid.size[2]; ++z) {
-        const std::uint32_t passes = passes_of_voxel(map, x, y, z);
+        const Int3& o = map.grid.origin;
+        const std::uint32_t passes = map.voxel_at({o[0] + x, o[1] + y, o[2] + z}).passes;
         times.passes += passes;
         times.passes_agree &= passes == straight.passes(x, y, z);
       }
@@ -100,7 +93,7 @@ IngestTimes measure_ingest(const Recording& recording, int repeats) {
       const Grid grid = grid_around(config, pose.translation_m);
       const std::vector<Pose> poses(sweep.times_ns.size(), pose);
       BrickMapShape shape;
-      const double count_ms = time_ms([&] { shape = voxelizer.count(sweep, poses, grid); });
+      const double count_ms = time_ms([&] { shape = *voxelizer.count(sweep, poses, grid); });
       if (repeat == 0) times.maps.push_back(room_for(shape));
       OwnedMap& map = times.maps[i];
       const BrickMapArrays out{map.directory.data(), map.lookup.data(), map.columns.data(),

@@ -48,9 +48,9 @@ tl::expected<void, std::string> write_map(gvom::tools::OfflineMapper& mapper,
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) return tl::unexpected(folder + ": " + error.message());
-  mapper.make_layers(layers.arrays());
+  if (const auto made = mapper.make_layers(layers.arrays()); !made) return tl::unexpected(made.error().what);
   auto written = layers.write(folder);
-  if (written && voxels) written = gvom::tools::write_voxels(folder, mapper.fuser().fused());
+  if (written && voxels) written = gvom::tools::write_voxels(folder, mapper.fuser());
   return written ? gvom::tools::write_meta(folder, mapper, sweep) : written;
 }
 

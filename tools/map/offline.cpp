@@ -77,7 +77,7 @@ bool OfflineMapper::map_sweep(std::size_t index, MappedSweep& mapped) {
       map->view(lidar.mapper->grid(), lidar.sweep.stamp_ns, lidar.mapper->T_odom_base());
   if (fuser_->add({view, static_cast<int>(index), token}) != AddResult::added) return ++refused_, false;
   window_.emplace(token, std::move(map));
-  for (const WindowMap& left : fuser_->fused().window().left()) window_.erase(left.token);
+  for (const WindowMap& left : fuser_->window().left()) window_.erase(left.token);
   mapped = {lidar.name, lidar.sweep.stamp_ns, lidar.sweep.complete, lidar.mapper->filter_counts()};
   return true;
 }

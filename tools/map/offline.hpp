@@ -21,7 +21,7 @@ struct MappedSweep {
   std::string lidar;
   std::int64_t stamp_ns = 0;
   bool complete = true;
-  cpu::FilterCounts filter;
+  FilterCounts filter;
 };
 
 class OfflineMapper {
@@ -38,8 +38,9 @@ class OfflineMapper {
   tl::expected<bool, std::string> next(MappedSweep& mapped);
 
   /// Layers of what is fused so far.
-  void make_layers(const LayerArrays& out) { fuser_->make_layers(out); }
+  DeviceExpected<void> make_layers(const LayerArrays& out) { return fuser_->make_layers(out); }
 
+  [[nodiscard]] MapFuser& fuser() { return *fuser_; }
   [[nodiscard]] const MapFuser& fuser() const { return *fuser_; }
   [[nodiscard]] std::uint64_t sweeps_without_odometry() const { return without_odometry_; }
   [[nodiscard]] std::uint64_t maps_refused() const { return refused_; }

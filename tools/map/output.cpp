@@ -3,6 +3,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "core/brick_map_storage.hpp"
 #include "tools/common/npy.hpp"
 
 namespace gvom::tools {
@@ -76,12 +77,12 @@ tl::expected<void, std::string> write_meta(const std::string& folder, const Offl
   const Grid& grid = moment.grid;
   const Eigen::Vector3d& base_m = moment.T_odom_base.translation_m;
   const Eigen::Quaterniond& q = moment.T_odom_base.rotation;
-  const cpu::FilterCounts& filter = sweep.filter;
+  const FilterCounts& filter = sweep.filter;
   nlohmann::json meta = {{"stamp_ns", moment.stamp_ns},
                          {"origin", grid.origin},
                          {"size", grid.size},
                          {"resolution_m", {grid.resolution_m[0], grid.resolution_m[2]}},
-                         {"maps_in_window", mapper.fuser().fused().window().maps().size()},
+                         {"maps_in_window", mapper.fuser().window().maps().size()},
                          {"base_position_m", {base_m.x(), base_m.y(), base_m.z()}},
                          {"base_orientation_xyzw", {q.x(), q.y(), q.z(), q.w()}},
                          {"lidar", sweep.lidar},
@@ -102,17 +103,22 @@ tl::expected<void, std::string> write_meta(const std::string& folder, const Offl
   return {};
 }
 
-tl::expected<void, std::string> write_voxels(const std::string& folder, const cpu::FusedMap& fused) {
-  const FusedView view = fused.view();
-  const Grid& grid = fused.grid();
+tl::expected<void, std::string> write_voxels(const std::string& folder, MapFuser& fuser) {
+  const auto shape = fuser.count_voxels();
+  if (!shape) return tl::unexpected(shape.error().what);
+  BrickMapStorage storage;
+  if (const auto written = fuser.write_voxels(storage.resize(*shape)); !written)
+    return tl::unexpected(written.error().what);
+  const Grid grid = fuser.moment().grid;
+  const BrickMapView map = storage.view(grid, 0, {});
   std::vector<VoxelRow> rows;
   for (std::int32_t z = 0; z < grid.size[2]; ++z)
     for (std::int32_t y = 0; y < grid.size[1]; ++y)
       for (std::int32_t x = 0; x < grid.size[0]; ++x) {
-        const std::size_t cell = view.cell(x, y, z);
-        if (view.hits[cell] + view.passes[cell] == 0) continue;
-        rows.push_back({grid.origin[0] + x, grid.origin[1] + y, grid.origin[2] + z, view.hits[cell],
-                        view.passes[cell], view.min_height_m[cell]});
+        const Int3 world{grid.origin[0] + x, grid.origin[1] + y, grid.origin[2] + z};
+        const VoxelRecord voxel = map.voxel_at(world);
+        if (voxel.hits + voxel.passes == 0) continue;
+        rows.push_back({world[0], world[1], world[2], voxel.hits, voxel.passes, voxel.min_height_m});
       }
   return npy::write_npy_records(
       folder + "/voxels.npy",

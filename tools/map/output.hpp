@@ -30,6 +30,6 @@ tl::expected<void, std::string> write_meta(const std::string& folder, const Offl
                                            const MappedSweep& sweep);
 
 /// Writes `FOLDER/voxels.npy`: every observed voxel of the fused map in z, y, x order.
-tl::expected<void, std::string> write_voxels(const std::string& folder, const cpu::FusedMap& fused);
+tl::expected<void, std::string> write_voxels(const std::string& folder, MapFuser& fuser);
 
 }  // namespace gvom::tools

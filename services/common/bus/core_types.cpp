@@ -21,6 +21,9 @@ BrickMapView view_of(const ipc::BrickMapSample& sample) {
   view.lookup = sample.lookup().data();
   view.columns = sample.columns().data();
   view.records = reinterpret_cast<const VoxelRecord*>(sample.records().data());
+  const auto* begin = reinterpret_cast<const std::byte*>(view.directory);
+  const auto* end = reinterpret_cast<const std::byte*>(view.records + view.shape.record_count);
+  view.bytes_in_one = static_cast<std::size_t>(end - begin);
   return view;
 }
 
@@ -28,19 +31,23 @@ LayerArrays arrays_of(const ipc::LayersWriter& writer) {
   using ipc::LayerId;
   const auto f = [&](LayerId id) { return writer.layer_f(id).data(); };
   const auto u8 = [&](LayerId id) { return writer.layer_u8(id).data(); };
-  return {f(LayerId::height),
-          f(LayerId::inferred_height),
-          f(LayerId::slope_x),
-          f(LayerId::slope_y),
-          f(LayerId::slope),
-          f(LayerId::roughness),
-          f(LayerId::obstacle_density),
-          f(LayerId::negative_delta),
-          f(LayerId::clearance),
-          f(LayerId::last_seen),
-          u8(LayerId::flags),
-          u8(LayerId::visibility),
-          u8(LayerId::cost)};
+  LayerArrays arrays{f(LayerId::height),
+                     f(LayerId::inferred_height),
+                     f(LayerId::slope_x),
+                     f(LayerId::slope_y),
+                     f(LayerId::slope),
+                     f(LayerId::roughness),
+                     f(LayerId::obstacle_density),
+                     f(LayerId::negative_delta),
+                     f(LayerId::clearance),
+                     f(LayerId::last_seen),
+                     u8(LayerId::flags),
+                     u8(LayerId::visibility),
+                     u8(LayerId::cost)};
+  const auto last = writer.layer_u8(LayerId::cost);
+  const auto* begin = reinterpret_cast<const std::uint8_t*>(arrays.height);
+  arrays.bytes_in_one = static_cast<std::size_t>(last.data() + last.size() - begin);
+  return arrays;
 }
 
 }  // namespace gvom::services
