@@ -47,8 +47,7 @@ class VoxelizerBackend {
   [[nodiscard]] virtual const FilterCounts& filter_counts() const = 0;
 };
 
-/// What a device spent on a tick: the maps added since the layers before, and the layers. Times are by the
-/// device's own clock.
+/// What a device spent on the last map and the last layers. Times are by the device's own clock.
 struct DeviceCosts {
   double upload_ms = 0;
   double fuse_ms = 0;
@@ -80,7 +79,7 @@ class FusionBackend {
 
   [[nodiscard]] virtual const Window& window() const = 0;
 
-  /// Of the last `make_layers` and the `add`s before it; nothing on the CPU.
+  /// Of the last `add` and the last `make_layers`; nothing on the CPU.
   [[nodiscard]] virtual std::optional<DeviceCosts> last_costs() const { return std::nullopt; }
 };
 

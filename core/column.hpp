@@ -78,6 +78,21 @@ GVOM_HD inline std::int32_t next_bit(const std::uint64_t* mask, std::int32_t wor
   return next < 0 ? -1 : (word + 1) * 64 + next;
 }
 
+/// The highest set bit up to and with `bit`, or -1.
+GVOM_HD inline std::int32_t last_bit_up_to(const std::uint64_t* mask, std::int32_t bit) {
+  std::uint64_t bits = mask[bit / 64] & (~std::uint64_t{0} >> (63 - bit % 64));
+  for (std::int32_t word = bit / 64;; bits = mask[--word]) {
+    if (bits != 0) {
+#ifdef __CUDA_ARCH__
+      return word * 64 + 63 - __clzll(static_cast<long long>(bits));
+#else
+      return word * 64 + 63 - __builtin_clzll(bits);
+#endif
+    }
+    if (word == 0) return -1;
+  }
+}
+
 /// Obstacles and clearance above the ground (R11, R14). Heights of a column's voxels ascend, so the walk
 /// ends at the first one over `max_obstacle_height`.
 GVOM_HD inline void obstacles_above(const FusedView& map, const ColumnParameters& p, std::int32_t x,

@@ -1,155 +1,36 @@
-// Random drives, held against the oracle after every map: any difference of a bit fails, with its seed.
+// Random drives on the CPU give the oracle's bits.
 #include <catch2/catch.hpp>
-#include <map>
-#include <memory>
 
-#include "core/brick_map_storage.hpp"
-#include "core/mapper.hpp"
-#include "tests/core/compare.hpp"
-#include "tests/core/scenario.hpp"
+#include "tests/core/race.hpp"
 
 namespace gvom::test {
 namespace {
 
-constexpr unsigned kAllFlags = kHard | kSoft | kNegative | kSteep | kAssumed;
-
-struct Tally {
-  int added = 0, refused = 0, unbracketed = 0;
-  unsigned flags = 0;  // seen in any column
-};
-
-// Runs the fast back end and the oracle side by side.
-class Race {
- public:
-  explicit Race(const Scenario& scenario)
-      : scenario_(scenario),
-        odometry_(scenario.odometry.size()),
-        fuser_(scenario.config),
-        expected_(scenario.config.window) {
-    for (const StampedPose& pose : scenario.odometry) odometry_.add(pose);
-    for (const LidarGeometry& lidar : scenario.lidars)
-      mappers_.push_back(std::make_unique<SweepMapper>(scenario.config, lidar, 1000));
-  }
-
-  /// @param reset_after arrivals after which everything is forgotten, as when a log starts again
-  Tally run(std::size_t reset_after) {
-    for (const Arrival& arrival : scenario_.arrivals) {
-      if (reset_after-- == 0) reset();
-      CAPTURE(arrival.lidar, arrival.sweep.stamp_ns);
-      take(arrival);
-    }
-    return tally_;
-  }
-
- private:
-  void reset() {
-    fuser_.reset();
-    for (const WindowMap& left : fuser_.window().left()) kept_.erase(left.token);
-    REQUIRE(kept_.empty());
-    expected_ = oracle::Fusion(scenario_.config.window);
-  }
-
-  void take(const Arrival& arrival) {
-    SweepMapper& mapper = *mappers_[std::size_t(arrival.lidar)];
-    if (tally_.added % 5 == 4)  // counted and not written: forgotten
-      mapper.count(scenario_.arrivals.front().sweep, odometry_);
-    const auto shape = mapper.count(arrival.sweep, odometry_);
-    auto expected = oracle::map_sweep(scenario_.config, scenario_.lidars[std::size_t(arrival.lidar)],
-                                      arrival.sweep, scenario_.odometry);
-    REQUIRE(shape.has_value() == expected.has_value());
-    if (!shape) {
-      ++tally_.unbracketed;
-      return;
-    }
-    auto storage = std::make_unique<BrickMapStorage>();
-    REQUIRE(mapper.write(storage->resize(*shape)));
-    const BrickMapView view = storage->view(mapper.grid(), arrival.sweep.stamp_ns, mapper.T_odom_base());
-    REQUIRE(difference(view, *expected) == "");
-    check_filter(mapper.filter_counts(), expected->filter);
-    expected->lidar = arrival.lidar;
-    fuse({view, arrival.lidar, next_token_}, std::move(storage), *expected);
-  }
-
-  static void check_filter(const FilterCounts& counts, const FilterCounts& expected) {
-    REQUIRE(counts.used == expected.used);
-    REQUIRE(counts.not_finite == expected.not_finite);
-    REQUIRE(counts.too_near == expected.too_near);
-    REQUIRE(counts.too_far == expected.too_far);
-    REQUIRE(counts.body == expected.body);
-  }
-
-  void fuse(const WindowMap& map, std::unique_ptr<BrickMapStorage> storage,
-            const oracle::BufferMap& expected) {
-    const bool added = fuser_.add(map).value() == AddResult::added;
-    REQUIRE(added == expected_.add(expected));
-    ++(added ? tally_.added : tally_.refused);
-    if (added) {
-      kept_[next_token_++] = std::move(storage);
-      for (const WindowMap& left : fuser_.window().left()) REQUIRE(kept_.erase(left.token) == 1);
-    }
-    REQUIRE(kept_.size() == expected_.window().size());
-    REQUIRE(difference(cpu_map(fuser_)->view(), expected_, scenario_.config.layers.min_hits) == "");
-    REQUIRE(export_difference(fuser_, expected_) == "");
-    oracle::Layers layers(scenario_.config.map.size_xy);
-    REQUIRE(fuser_.make_layers(layers.arrays()));
-    REQUIRE(difference(layers, oracle::make_layers(scenario_.config, expected_)) == "");
-    for (const std::uint8_t flags : layers.flags) tally_.flags |= flags;
-  }
-
-  const Scenario& scenario_;
-  OdometryBuffer odometry_;
-  std::vector<std::unique_ptr<SweepMapper>> mappers_;
-  MapFuser fuser_;
-  oracle::Fusion expected_;
-  std::map<std::uint64_t, std::unique_ptr<BrickMapStorage>> kept_;  // by token; freed once its map has left
-  std::uint64_t next_token_ = 0;
-  Tally tally_;
-};
-
-// Returns the flags that were seen.
-unsigned race(const ScenarioSize& size, std::uint64_t first_seed, std::uint64_t seeds) {
-  Tally total;
-  for (std::uint64_t seed = first_seed; seed < first_seed + seeds; ++seed) {
-    CAPTURE(seed, size.size_xy, size.size_z, size.on_faces);
-    const Scenario scenario = random_scenario(seed, size);
-    const Tally tally =
-        Race(scenario).run(seed % 3 == 0 ? scenario.arrivals.size() / 2 : scenario.arrivals.size());
-    total.added += tally.added;
-    total.refused += tally.refused;
-    total.unbracketed += tally.unbracketed;
-    total.flags |= tally.flags;
-  }
-  CHECK(total.added > 8 * static_cast<int>(seeds));
-  CHECK(total.refused > 0);
-  CHECK(total.unbracketed > 0);
-  return total.flags;
-}
-
 TEST_CASE("Random drives through the smallest grid give the oracle's bits") {
-  race({8, 8, 40, 60, false}, 100, 100);
-  race({8, 8, 40, 60, true}, 200, 100);
+  race(Backend::cpu, {8, 8, 40, 60, false}, 100, 100);
+  race(Backend::cpu, {8, 8, 40, 60, true}, 200, 100);
 }
 
 TEST_CASE("Random drives through a flat grid give the oracle's bits") {
-  CHECK(race({64, 8, 30, 150, false}, 300, 8) == kAllFlags);
-  race({64, 8, 30, 150, true}, 400, 8);
+  CHECK(race(Backend::cpu, {64, 8, 30, 150, false}, 300, 8) == kAllFlags);
+  race(Backend::cpu, {64, 8, 30, 150, true}, 400, 8);
 }
 
 TEST_CASE("Random drives through a cube give the oracle's bits") {
-  CHECK(race({64, 64, 24, 250, false}, 500, 6) == kAllFlags);
-  race({64, 64, 24, 250, true}, 600, 6);
+  CHECK(race(Backend::cpu, {64, 64, 24, 250, false}, 500, 6) == kAllFlags);
+  race(Backend::cpu, {64, 64, 24, 250, true}, 600, 6);
 }
 
 TEST_CASE("Random drives through a tower of two mask words give the oracle's bits") {
-  race({8, 128, 30, 80, false}, 700, 6);
-  race({8, 128, 30, 80, true}, 800, 6);
-  race({64, 128, 20, 200, false}, 900, 3);
+  race(Backend::cpu, {8, 128, 30, 80, false}, 700, 6);
+  race(Backend::cpu, {8, 128, 30, 80, true}, 800, 6);
+  race(Backend::cpu, {64, 128, 20, 200, false}, 900, 3);
 }
 
 TEST_CASE("Random drives through a grid that is no power of two give the oracle's bits") {
-  race({264, 8, 20, 400, false}, 1000, 3);
-  race({264, 64, 20, 400, true}, 1100, 1);
-  race({24, 72, 30, 150, false}, 1200, 6);
+  race(Backend::cpu, {264, 8, 20, 400, false}, 1000, 3);
+  race(Backend::cpu, {264, 64, 20, 400, true}, 1100, 1);
+  race(Backend::cpu, {24, 72, 30, 150, false}, 1200, 6);
 }
 
 }  // namespace

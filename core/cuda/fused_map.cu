@@ -1,0 +1,104 @@
+#include "core/cuda/fused_map.hpp"
+
+#include <algorithm>
+#include <new>
+
+#include "core/cuda/fill.hpp"
+#include "core/cuda/launch.hpp"
+
+namespace gvom::cuda {
+
+FusedMap::FusedMap(Device& device, const MapConfig& map, int min_hits, std::size_t most_maps)
+    : device_(device),
+      grid_(grid_around(map, Eigen::Vector3d::Zero())),
+      words_((map.size_z + 63) / 64),
+      tick_bytes_(sizeof(FuseTick) + most_maps * sizeof(DeviceMap)) {
+  const std::size_t slots = grid_.brick_slots();
+  const std::size_t cells = slots * kBrickCells;
+  bricks_ = {grid_.bricks(), device.array<std::uint32_t>(cells), device.array<std::uint32_t>(cells),
+             device.array<float>(cells)};
+  occupied_ = static_cast<std::uint64_t*>(device.allocate(mask_bytes()));
+  free_ = static_cast<std::uint64_t*>(device.allocate(mask_bytes()));
+  last_seen_ns_ = device.array<std::int64_t>(columns());
+  tick_ = device.array<std::byte>(tick_bytes_);
+  staged_ = device.pinned_array<std::byte>(kStaged * tick_bytes_);
+  listed_ = device.array<std::uint32_t>(slots);
+  listed_count_ = device.array<std::uint32_t>(1);
+  clear();
+  const auto* tick = reinterpret_cast<const FuseTick*>(tick_);
+  update_ = device.record([&] {
+    device.clear(listed_count_, sizeof *listed_count_);
+    for_each(device, static_cast<std::int32_t>(slots), ListChangedBricks{tick, listed_, listed_count_});
+    for_each_counted(device, listed_count_, kBrickEdge * kBrickEdge,
+                     UpdateBricks{tick, listed_, bricks_, reinterpret_cast<std::uint8_t*>(occupied_),
+                                  reinterpret_cast<std::uint8_t*>(free_), words_ * 8,
+                                  static_cast<std::uint32_t>(min_hits)});
+    for_each(device, static_cast<std::int32_t>(columns()),
+             UpdateLastSeen{tick, last_seen_ns_, grid_.size[0]});
+  });
+}
+
+std::size_t FusedMap::columns() const {
+  return static_cast<std::size_t>(grid_.size[0]) * static_cast<std::size_t>(grid_.size[1]);
+}
+
+FusedView FusedMap::view() const {
+  const Int3& n = grid_.size;
+  return {n[0],
+          n[2],
+          words_,
+          {wrap(grid_.origin[0], n[0]), wrap(grid_.origin[1], n[1]), wrap(grid_.origin[2], n[2])},
+          bricks_.hits,
+          bricks_.passes,
+          bricks_.min_height_m,
+          occupied_,
+          free_,
+          last_seen_ns_};
+}
+
+void FusedMap::clear() {
+  const auto cells = static_cast<std::int32_t>(grid_.brick_slots() * kBrickCells);
+  device_.clear(bricks_.hits, static_cast<std::size_t>(cells) * sizeof *bricks_.hits);
+  device_.clear(bricks_.passes, static_cast<std::size_t>(cells) * sizeof *bricks_.passes);
+  for_each(device_, cells, Fill<float>{bricks_.min_height_m, kNoHeight_m});
+  device_.clear(occupied_, mask_bytes());
+  device_.clear(free_, mask_bytes());
+  for_each(device_, static_cast<std::int32_t>(columns()), Fill<std::int64_t>{last_seen_ns_, kNeverSeen});
+  empty_ = true;
+}
+
+void FusedMap::update(const Window& window, std::uint32_t added_place, const MapRing& ring) {
+  if (device_.failed()) return;
+  std::byte* const staged = next_staged();
+  const std::size_t bytes = write_tick(window, added_place, ring, staged);
+  grid_ = window.maps().front().view.grid;
+  empty_ = false;
+  device_.upload(tick_, staged, bytes);
+  device_.play(update_);
+}
+
+// Staged memory is used again only when the device has read it.
+std::byte* FusedMap::next_staged() {
+  if (turn_ > 0 && turn_ % kStaged == 0) static_cast<void>(device_.wait());
+  return staged_ + (turn_++ % kStaged) * tick_bytes_;
+}
+
+std::size_t FusedMap::write_tick(const Window& window, std::uint32_t added_place, const MapRing& ring,
+                                 std::byte* to) const {
+  auto* tick = new (to) FuseTick{};
+  tick->grid = window.maps().front().view.grid;
+  tick->before = grid_;
+  if (empty_) tick->before.size = {0, 0, 0};
+  tick->moved_in_z = tick->grid.origin[2] != tick->before.origin[2];
+  tick->window_maps = static_cast<std::int32_t>(window.maps().size());
+  tick->left_maps = static_cast<std::int32_t>(window.left().size());
+  auto* next = reinterpret_cast<DeviceMap*>(tick + 1);
+  for (const WindowMap& map : window.maps()) {
+    if (map.place == added_place) tick->added = static_cast<std::int32_t>(&map - window.maps().data());
+    *next++ = ring.map(map.place);
+  }
+  for (const WindowMap& map : window.left()) *next++ = ring.map(map.place);
+  return static_cast<std::size_t>(reinterpret_cast<std::byte*>(next) - to);
+}
+
+}  // namespace gvom::cuda

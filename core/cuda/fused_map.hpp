@@ -1,0 +1,55 @@
+// The fused map (R7, R8) in the device's memory, kept up to date as the CPU's is.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "core/cuda/device.hpp"
+#include "core/cuda/fuse_kernels.hpp"
+#include "core/cuda/map_ring.hpp"
+#include "core/window.hpp"
+
+namespace gvom::cuda {
+
+class FusedMap {
+ public:
+  /// @param most_maps that a tick can name: those of the window and those that leave it
+  FusedMap(Device& device, const MapConfig& map, int min_hits, std::size_t most_maps);
+
+  /// Fuses the map that the window took last. All of the window's maps, and those that left it, are in
+  /// `ring`.
+  void update(const Window& window, std::uint32_t added_place, const MapRing& ring);
+  void clear();
+
+  [[nodiscard]] const DenseBricks& bricks() const { return bricks_; }
+  /// Pointers of the device.
+  [[nodiscard]] FusedView view() const;
+
+ private:
+  std::size_t write_tick(const Window& window, std::uint32_t added_place, const MapRing& ring,
+                         std::byte* to) const;
+  std::byte* next_staged();
+  [[nodiscard]] std::size_t columns() const;
+  [[nodiscard]] std::size_t mask_bytes() const { return columns() * static_cast<std::size_t>(words_) * 8; }
+
+  // Ticks that may be on their way to the device at a time.
+  static constexpr std::size_t kStaged = 8;
+
+  Device& device_;
+  Grid grid_;
+  bool empty_ = true;
+  DenseBricks bricks_;
+  std::int32_t words_;
+  std::uint64_t* occupied_;
+  std::uint64_t* free_;
+  std::int64_t* last_seen_ns_;
+  std::byte* tick_;         // a FuseTick and its maps
+  std::size_t tick_bytes_;  // room for it
+  std::byte* staged_;       // pinned, kStaged times
+  std::size_t turn_ = 0;
+  std::uint32_t* listed_;
+  std::uint32_t* listed_count_;
+  Device::Graph update_;
+};
+
+}  // namespace gvom::cuda

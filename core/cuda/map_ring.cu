@@ -1,0 +1,94 @@
+#include "core/cuda/map_ring.hpp"
+
+namespace gvom::cuda {
+
+namespace {
+
+constexpr std::size_t kAlignment = 64;
+
+std::size_t aligned(std::size_t bytes) {
+  return (bytes + kAlignment - 1) / kAlignment * kAlignment;
+}
+
+// A map's arrays behind each other.
+struct Layout {
+  std::size_t lookup, columns, records, bytes;
+
+  explicit Layout(const BrickMapShape& shape)
+      : lookup(aligned(shape.brick_slots * sizeof(std::int32_t))),
+        columns(lookup + aligned(std::size_t{shape.brick_count} * kBrickCells * sizeof(std::int32_t))),
+        records(columns + aligned(shape.brick_count * sizeof(std::uint64_t))),
+        bytes(records + aligned(shape.record_count * sizeof(VoxelRecord))) {}
+};
+
+std::size_t most_bytes_of(const MapConfig& map, std::size_t most_records) {
+  const std::uint32_t slots = grid_around(map, Eigen::Vector3d::Zero()).brick_slots();
+  return Layout({slots, slots, static_cast<std::uint32_t>(most_records)}).bytes;
+}
+
+}  // namespace
+
+MapRing::MapRing(Device& device, const MapConfig& map, std::size_t places, std::size_t most_records,
+                 bool in_place)
+    : device_(device),
+      in_place_(in_place),
+      most_bytes_(most_bytes_of(map, most_records)),
+      memory_(places),
+      maps_(places) {
+  for (std::size_t place = places; place-- > 0;) {
+    free_.push_back(static_cast<std::uint32_t>(place));
+    if (!in_place) memory_[place] = device.array<std::byte>(most_bytes_);
+  }
+}
+
+std::uint32_t MapRing::take() {
+  if (free_.empty()) return device_.fail("more maps are in the window than there is room for"), 0;
+  const std::uint32_t place = free_.back();
+  free_.pop_back();
+  return place;
+}
+
+void MapRing::send(const BrickMapView& map, std::uint32_t place) {
+  bytes_sent_ = 0;
+  if (in_place_) {
+    const auto seen = [this](const auto* host) {
+      return static_cast<decltype(host)>(device_.in_place(host));
+    };
+    maps_[place] = {map.grid,         map.stamp_ns,      seen(map.directory),
+                    seen(map.lookup), seen(map.columns), seen(map.records)};
+    if (maps_[place].directory == nullptr) device_.fail("a map lies outside of the pinned memory");
+    return;
+  }
+  const bool in_one = map.bytes_in_one > 0;
+  if ((in_one ? map.bytes_in_one : Layout(map.shape).bytes) > most_bytes_)
+    return device_.fail("a map is larger than there is room for on the device");
+  maps_[place] = in_one ? send_in_one(map, memory_[place]) : send_arrays(map, memory_[place]);
+}
+
+DeviceMap MapRing::send_in_one(const BrickMapView& map, std::byte* to) {
+  device_.upload(to, map.directory, map.bytes_in_one);
+  bytes_sent_ = map.bytes_in_one;
+  const auto* from = reinterpret_cast<const std::byte*>(map.directory);
+  const auto moved = [&](const auto* host) {
+    return reinterpret_cast<decltype(host)>(to + (reinterpret_cast<const std::byte*>(host) - from));
+  };
+  return {map.grid,          map.stamp_ns,       moved(map.directory),
+          moved(map.lookup), moved(map.columns), moved(map.records)};
+}
+
+DeviceMap MapRing::send_arrays(const BrickMapView& map, std::byte* to) {
+  const Layout layout(map.shape);
+  const auto send = [this](std::byte* place, const auto* host, std::size_t count) {
+    device_.upload(place, host, count * sizeof *host);
+    bytes_sent_ += count * sizeof *host;
+    return reinterpret_cast<decltype(host)>(place);
+  };
+  return {map.grid,
+          map.stamp_ns,
+          send(to, map.directory, map.shape.brick_slots),
+          send(to + layout.lookup, map.lookup, std::size_t{map.shape.brick_count} * kBrickCells),
+          send(to + layout.columns, map.columns, map.shape.brick_count),
+          send(to + layout.records, map.records, map.shape.record_count)};
+}
+
+}  // namespace gvom::cuda

@@ -1,0 +1,92 @@
+#include "core/cuda/voxelizer.hpp"
+
+#include <algorithm>
+
+#include "core/cuda/fill.hpp"
+#include "core/cuda/launch.hpp"
+
+namespace gvom::cuda {
+
+namespace {
+
+constexpr std::int32_t kColumns = kBrickEdge * kBrickEdge;
+constexpr std::size_t kUsualPoses = 4096;
+
+}  // namespace
+
+Voxelizer::Voxelizer(std::unique_ptr<Device> device, const VoxelizerSetup& setup)
+    : device_(std::move(device)),
+      T_base_sensor_(setup.lidar.T_base_sensor),
+      filter_(setup.lidar, setup.vehicle),
+      most_returns_(std::max<std::size_t>(setup.max_returns, 1)),
+      slots_(grid_around(setup.map, Eigen::Vector3d::Zero()).brick_slots()),
+      bricks_{grid_around(setup.map, Eigen::Vector3d::Zero()).bricks(),
+              device_->array<std::uint32_t>(std::size_t{slots_} * kBrickCells),
+              device_->array<std::uint32_t>(std::size_t{slots_} * kBrickCells),
+              device_->array<float>(std::size_t{slots_} * kBrickCells)},
+      touched_(device_->array<std::uint8_t>(slots_)),
+      verdicts_(device_->array<std::uint32_t>(kVerdicts)),
+      verdicts_here_(device_->pinned_array<std::uint32_t>(kVerdicts)),
+      returns_(device_->array<Return>(most_returns_)),
+      writer_(*device_, setup.map, most_returns_) {
+  for_each(*device_, static_cast<std::int32_t>(slots_ * kBrickCells),
+           Fill<float>{bricks_.min_height_m, kNoHeight_m});
+}
+
+// Empties the counters of the last sweep.
+void Voxelizer::forget() {
+  for_each(*device_, static_cast<std::int32_t>(slots_) * kColumns, ClearTouched{bricks_, touched_});
+  device_->clear(touched_, slots_);
+}
+
+DeviceExpected<BrickMapShape> Voxelizer::count(const Sweep& sweep, const std::vector<Pose>& T_odom_base,
+                                               const Grid& grid) {
+  if (device_->failed()) return tl::make_unexpected(device_->failure());
+  forget();
+  device_->clear(verdicts_, kVerdicts * sizeof *verdicts_);
+  send_poses(T_odom_base, grid);
+  cast(sweep, grid);
+  // The dense bricks lie from the grid's origin on: as those of a grid whose origin is 0.
+  Grid from_zero = grid;
+  from_zero.origin = {0, 0, 0};
+  writer_.measure(bricks_, from_zero);
+  device_->download(verdicts_here_, verdicts_, kVerdicts * sizeof *verdicts_);
+  if (const auto done = device_->wait(); !done) return tl::make_unexpected(done.error());
+  const auto counted = [this](Verdict v) { return verdicts_here_[static_cast<std::uint32_t>(v)]; };
+  filter_counts_ = {counted(Verdict::used), counted(Verdict::not_finite), counted(Verdict::too_near),
+                    counted(Verdict::too_far), counted(Verdict::body)};
+  return writer_.shape();
+}
+
+void Voxelizer::send_poses(const std::vector<Pose>& T_odom_base, const Grid& grid) {
+  if (T_odom_base.size() > most_poses_) {  // rare: more times than any sweep before
+    most_poses_ = std::max({kUsualPoses, 2 * most_poses_, T_odom_base.size()});
+    poses_ = device_->array<SensorPose>(most_poses_);
+    staged_poses_ = device_->pinned_array<SensorPose>(most_poses_);
+  }
+  if (device_->failed()) return;
+  for (std::size_t i = 0; i < T_odom_base.size(); ++i) {
+    SensorPose& pose = staged_poses_[i];
+    pose.T_odom_sensor = sensor_in_odom(T_odom_base[i], T_base_sensor_);
+    for (std::size_t a = 0; a < 3; ++a)
+      pose.from[a] = fixed_in_grid(pose.T_odom_sensor.t[a], grid.resolution_m[a], grid.origin[a]);
+  }
+  device_->upload(poses_, staged_poses_, T_odom_base.size() * sizeof *poses_);
+}
+
+// As many returns at a time as there is room for.
+void Voxelizer::cast(const Sweep& sweep, const Grid& grid) {
+  const CastReturn cast{{grid, bricks_, touched_, verdicts_}, filter_, returns_, poses_};
+  for (std::size_t first = 0; first < sweep.returns.size(); first += most_returns_) {
+    const std::size_t count = std::min(most_returns_, sweep.returns.size() - first);
+    device_->upload(returns_, sweep.returns.data() + first, count * sizeof *returns_);
+    for_each(*device_, static_cast<std::int32_t>(count), cast);
+  }
+}
+
+DeviceExpected<void> Voxelizer::write(const BrickMapArrays& out) {
+  writer_.write(out);
+  return device_->wait();
+}
+
+}  // namespace gvom::cuda

@@ -1,0 +1,33 @@
+// Random drives on the CUDA back end give the oracle's bits: 1,000 sweeps and more of several lidars, with
+// windows that slide and grids that move. On a GPU, or on the serial device.
+#include <catch2/catch.hpp>
+
+#include "tests/core/race.hpp"
+#include "tests/cuda/gpu.hpp"
+
+namespace gvom::test {
+namespace {
+
+TEST_CASE("CUDA: random drives through the smallest grid give the oracle's bits") {
+  if (!has_gpu()) return;
+  race(Backend::cuda, {8, 8, 40, 60, false}, 2100, 25);
+  race(Backend::cuda, {8, 8, 40, 60, true}, 2200, 25);
+}
+
+TEST_CASE("CUDA: random drives through a flat grid and a cube give the oracle's bits") {
+  if (!has_gpu()) return;
+  CHECK(race(Backend::cuda, {64, 8, 30, 150, false}, 300, 8) == kAllFlags);
+  race(Backend::cuda, {64, 64, 24, 250, false}, 2500, 2);
+  race(Backend::cuda, {64, 64, 24, 250, true}, 2600, 2);
+}
+
+TEST_CASE("CUDA: random drives through towers and odd grids give the oracle's bits") {
+  if (!has_gpu()) return;
+  race(Backend::cuda, {8, 128, 30, 80, false}, 2700, 6);
+  race(Backend::cuda, {64, 128, 20, 200, false}, 900, 3);
+  race(Backend::cuda, {264, 8, 20, 400, false}, 1000, 3);
+  race(Backend::cuda, {24, 72, 30, 150, true}, 1200, 6);
+}
+
+}  // namespace
+}  // namespace gvom::test
