@@ -59,19 +59,25 @@ GVOM_HD inline bool crosses_first(const RayAxis& a, const RayAxis& b) {
   return static_cast<__int128>(a.offset) * b.length <= static_cast<__int128>(b.offset) * a.length;
 }
 
+/// Goes on to the voxel behind the next crossing of an axis, if `goes`.
+GVOM_HD inline void step_if(bool goes, RayAxis& axis) {
+  axis.voxel += goes ? axis.step : 0;
+  axis.offset += goes ? kFixedOne : 0;
+  axis.crossings -= goes ? 1 : 0;
+}
+
 /// Calls `visit(x, y, z)` for every voxel that the segment goes through, first to last, except the
 /// voxel of its end, until that says false. `from` and `to` are fixed coordinates.
 template <class Visit>
 GVOM_HD void walk_ray(const std::int64_t (&from)[3], const std::int64_t (&to)[3], Visit&& visit) {
-  RayAxis axes[3] = {ray_axis(from[0], to[0]), ray_axis(from[1], to[1]), ray_axis(from[2], to[2])};
-  for (std::int64_t left = std::int64_t{axes[0].crossings} + axes[1].crossings + axes[2].crossings; left > 0;
-       --left) {
-    if (!visit(axes[0].voxel, axes[1].voxel, axes[2].voxel)) return;
-    const int xy = crosses_first(axes[0], axes[1]) ? 0 : 1;
-    const int next = crosses_first(axes[xy], axes[2]) ? xy : 2;
-    axes[next].voxel += axes[next].step;
-    axes[next].offset += kFixedOne;
-    --axes[next].crossings;
+  RayAxis x = ray_axis(from[0], to[0]), y = ray_axis(from[1], to[1]), z = ray_axis(from[2], to[2]);
+  for (std::int64_t left = std::int64_t{x.crossings} + y.crossings + z.crossings; left > 0; --left) {
+    if (!visit(x.voxel, y.voxel, z.voxel)) return;
+    const bool x_first = crosses_first(x, y);
+    const bool z_last = x_first ? crosses_first(x, z) : crosses_first(y, z);
+    step_if(x_first && z_last, x);
+    step_if(!x_first && z_last, y);
+    step_if(!z_last, z);
   }
 }
 

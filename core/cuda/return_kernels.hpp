@@ -36,6 +36,7 @@ struct CastReturn {
     const SensorPose& sensor = poses[r.time_index];
     double p_m[3];
     std::int64_t to[3];
+    GVOM_UNROLL
     for (int a = 0; a < 3; ++a) {
       const auto axis = static_cast<std::size_t>(a);
       p_m[a] = sensor.T_odom_sensor.coordinate(a, r.x_m, r.y_m, r.z_m);

@@ -28,6 +28,7 @@ std::uint64_t fail_at_from_environment() {
 bool shares_host_memory = false;
 bool refuses_to_pin = false;
 std::uint64_t failing_operation = fail_at_from_environment();
+std::uint64_t allocation_count = 0;
 
 using Operation = std::function<void()>;
 
@@ -60,6 +61,10 @@ void refuse_to_pin(bool refuses) {
 
 void fail_at(std::uint64_t operation) {
   failing_operation = operation;
+}
+
+std::uint64_t allocations() {
+  return allocation_count;
 }
 
 }  // namespace serial
@@ -109,6 +114,7 @@ void* Device::allocate(std::size_t bytes) {
 
 void* Device::allocate_pinned(std::size_t bytes) {
   if (bytes == 0) return nullptr;
+  ++allocation_count;
   void* memory = aligned_memory(bytes);
   std::memset(memory, kPoison, bytes);
   state_->memory.push_back({memory, bytes});

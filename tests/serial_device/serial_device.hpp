@@ -13,5 +13,7 @@ void refuse_to_pin(bool refuses);
 /// is open or will be fails for good, as after a fault in a kernel; 0: never. At the start of a program it is
 /// the environment's GVOM_SERIAL_DEVICE_FAIL_AT.
 void fail_at(std::uint64_t operation);
+/// Memory that devices have been asked for so far, times.
+std::uint64_t allocations();
 
 }  // namespace gvom::cuda::serial

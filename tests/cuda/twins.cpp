@@ -1,0 +1,143 @@
+#include "tests/cuda/twins.hpp"
+
+#include <catch2/catch.hpp>
+#include <cstring>
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "core/brick_map_storage.hpp"
+#include "core/mapper.hpp"
+#include "core/open_backend.hpp"
+#include "tests/core/random.hpp"
+#include "tests/cuda/segment.hpp"
+
+namespace gvom::test {
+
+namespace {
+
+constexpr std::size_t kMostReturns = 20'000;
+constexpr std::size_t kSegmentBytes = std::size_t{256} << 20;
+
+template <class T>
+bool same_bytes(const T* a, const T* b, std::size_t count) {
+  return std::memcmp(a, b, count * sizeof(T)) == 0;
+}
+
+bool same_map(const BrickMapView& a, const BrickMapView& b) {
+  return a.shape.brick_count == b.shape.brick_count && a.shape.record_count == b.shape.record_count &&
+         same_bytes(a.directory, b.directory, a.shape.brick_slots) &&
+         same_bytes(a.lookup, b.lookup, std::size_t{a.shape.brick_count} * kBrickCells) &&
+         same_bytes(a.columns, b.columns, a.shape.brick_count) &&
+         same_bytes(a.records, b.records, a.shape.record_count);
+}
+
+bool same_layers(const LayerArrays& a, const LayerArrays& b, std::size_t columns) {
+  return same_bytes(a.height, b.height, columns) &&
+         same_bytes(a.inferred_height, b.inferred_height, columns) &&
+         same_bytes(a.slope_x, b.slope_x, columns) && same_bytes(a.slope_y, b.slope_y, columns) &&
+         same_bytes(a.slope, b.slope, columns) && same_bytes(a.roughness, b.roughness, columns) &&
+         same_bytes(a.obstacle_density, b.obstacle_density, columns) &&
+         same_bytes(a.negative_delta, b.negative_delta, columns) &&
+         same_bytes(a.clearance, b.clearance, columns) && same_bytes(a.last_seen, b.last_seen, columns) &&
+         same_bytes(a.flags, b.flags, columns) && same_bytes(a.visibility, b.visibility, columns) &&
+         same_bytes(a.cost, b.cost, columns);
+}
+
+class Twins {
+ public:
+  Twins(const Scenario& scenario, std::uint64_t seed)
+      : scenario_(scenario),
+        random_(seed),
+        segment_(kSegmentBytes),
+        odometry_(scenario.odometry.size()),
+        cpu_(scenario.config),
+        cuda_(std::move(open_fusion(Backend::cuda, {scenario.config, int(scenario.lidars.size()),
+                                                    kMostReturns, segment_.memory()})
+                            .value()
+                            .backend)) {
+    for (const StampedPose& pose : scenario.odometry) odometry_.add(pose);
+    const MapperConfig& config = scenario.config;
+    for (const LidarGeometry& lidar : scenario.lidars) {
+      cpu_mappers_.emplace_back(config, lidar, kMostReturns);
+      const VoxelizerSetup setup{config.map, lidar, config.vehicle, kMostReturns, {}};
+      cuda_mappers_.emplace_back(config.map, std::move(open_voxelizer(Backend::cuda, setup).value().backend));
+    }
+  }
+
+  TwinTally run() {
+    for (const Arrival& arrival : scenario_.arrivals) {
+      CAPTURE(arrival.lidar, arrival.sweep.stamp_ns);
+      take(arrival);
+      if (cpu_.window().maps().empty() || random_.chance(0.6)) continue;  // several maps between layers
+      compare_layers();
+      if (random_.chance(0.3)) compare_voxels();
+    }
+    return tally_;
+  }
+
+ private:
+  void take(const Arrival& arrival) {
+    SweepMapper& cpu = cpu_mappers_[std::size_t(arrival.lidar)];
+    SweepMapper& cuda = cuda_mappers_[std::size_t(arrival.lidar)];
+    const auto shape = cpu.count(arrival.sweep, odometry_);
+    const auto cuda_shape = cuda.count(arrival.sweep, odometry_);
+    REQUIRE(shape.has_value() == cuda_shape.has_value());
+    if (!shape) return;
+    BrickMapView view{cpu.grid(), arrival.sweep.stamp_ns, cpu.T_odom_base(), {}};
+    REQUIRE(cpu.write(segment_.loan_map(*shape, view)));
+    BrickMapStorage storage;
+    REQUIRE(cuda.write(storage.resize(*cuda_shape)));
+    REQUIRE(same_map(view, storage.view(view.grid, 0, {})));
+    fuse({view, arrival.lidar, next_token_++});
+  }
+
+  void fuse(const WindowMap& map) {
+    const AddResult result = cpu_.add(map).value();
+    REQUIRE(cuda_.add(map).value() == result);
+    if (result != AddResult::added) return segment_.give_back(map.view.directory);
+    ++tally_.added;
+    for (const WindowMap& left : cuda_.window().left()) segment_.give_back(left.view.directory);
+  }
+
+  void compare_layers() {
+    const int n = scenario_.config.map.size_xy;
+    const LayerArrays expected = segment_.loan_layers(n), found = segment_.loan_layers(n);
+    REQUIRE(cpu_.make_layers(expected));
+    REQUIRE(cuda_.make_layers(found));
+    REQUIRE(same_layers(found, expected, std::size_t(n) * std::size_t(n)));
+    segment_.give_back(expected.height);
+    segment_.give_back(found.height);
+    ++tally_.layers;
+  }
+
+  void compare_voxels() {
+    BrickMapStorage expected, found;
+    REQUIRE(cpu_.write_voxels(expected.resize(cpu_.count_voxels().value())));
+    REQUIRE(cuda_.write_voxels(found.resize(cuda_.count_voxels().value())));
+    const Grid grid = cpu_.moment().grid;
+    REQUIRE(same_map(found.view(grid, 0, {}), expected.view(grid, 0, {})));
+  }
+
+  const Scenario& scenario_;
+  Random random_;
+  Segment segment_;
+  OdometryBuffer odometry_;
+  MapFuser cpu_;
+  MapFuser cuda_;
+  std::vector<SweepMapper> cpu_mappers_;
+  std::vector<SweepMapper> cuda_mappers_;
+  std::uint64_t next_token_ = 0;
+  TwinTally tally_;
+};
+
+}  // namespace
+
+TwinTally run_twins(const ScenarioSize& size, std::uint64_t seed) {
+  CAPTURE(seed, size.size_xy, size.size_z, size.on_faces);
+  const Scenario scenario = random_scenario(seed, size);
+  return Twins(scenario, seed).run();
+}
+
+}  // namespace gvom::test

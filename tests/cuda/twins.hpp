@@ -1,0 +1,19 @@
+// The CPU and the CUDA back end side by side, through one segment of shared memory.
+#pragma once
+
+#include <cstdint>
+
+#include "tests/core/scenario.hpp"
+
+namespace gvom::test {
+
+struct TwinTally {
+  int added = 0;
+  int layers = 0;
+};
+
+/// Runs one random drive on both. Every buffer map, the layers after every few maps and the exported voxels
+/// must be the same bytes, NaN included. A map's memory is spoilt as soon as it has left the window.
+TwinTally run_twins(const ScenarioSize& size, std::uint64_t seed);
+
+}  // namespace gvom::test
