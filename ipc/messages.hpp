@@ -154,16 +154,17 @@ enum class HealthState : std::uint32_t { starting = 0, ok = 1, degraded = 2, fai
 /// Topic "health", at 1 Hz from every process.
 struct Health {
   static constexpr MessageType kType = MessageType::health;
-  static constexpr std::uint16_t kVersion = 1;
+  static constexpr std::uint16_t kVersion = 2;
   static constexpr int kMaxCounters = 40;
   static constexpr int kMaxStages = 8;
   MessageHeader header;
   char process[2 * kNameLength];  // runtime name, e.g. "gvom-ingest-top"
   std::uint32_t state;            // HealthState
   std::uint32_t pid;
-  char reason[160];  // why it is not ok, in words
-  char backend[32];  // "cpu" or what a GPU back end calls itself; empty where there is none
-  double rate_hz;    // of its product over the last second
+  char reason[160];           // why it is not ok, in words
+  char backend[32];           // "cpu" or "cuda"; empty where there is none
+  char backend_details[160];  // why this one, on what it runs, how it reaches the payloads: in words
+  double rate_hz;             // of its product over the last second
   std::int64_t mono_ns;
   struct Counter {
     char name[kNameLength];

@@ -54,7 +54,7 @@ class Runtime {
   /// leave with `_exit(75)` (destructors can hang) and be started again. Cheap enough for 10 Hz.
   [[nodiscard]] bool broker_alive() const;
 
-  /// Where all payloads live in this process: what a GPU back end would pin.
+  /// Where all payloads live in this process: what a GPU back end pins.
   [[nodiscard]] Expected<MemoryRange> payload_segment() const;
 
   /// Maps every page of the payload segment now, so that none faults later. Returns the bytes.

@@ -88,6 +88,9 @@ const std::vector<VehicleRow>& vehicle_rows() {
       {{"cost.roughness_full_m2", "m^2", Rule::above_min, 0, 100, kOptional, "roughness of full cost (R16)"},
        [](V& c) -> Field { return &c.mapper.cost.roughness_full_m2; }},
 
+      {{"fusion.backend", "", Rule::choice, 0, 0, kOptional,
+        "what fuses and makes the layers; auto: a GPU if one can be used, else the CPU"},
+       [](V& c) -> Field { return &c.fusion.backend; }},
       {{"fusion.rate_hz", "Hz", Rule::range, 0, 100, kOptional, "of the layers; 0: on each map"},
        [](V& c) -> Field { return &c.fusion.rate_hz; }},
       {{"fusion.voxel_rate_hz", "Hz", Rule::range, 0, 100, kOptional,
@@ -136,6 +139,10 @@ const std::vector<LidarRow>& lidar_rows() {
       {{"max_returns", "returns", Rule::range, 1, 4194304, kOptional,
         "room for one sweep; more are dropped and counted"},
        [](L& c) -> Field { return &c.max_returns; }},
+      {{"backend", "", Rule::choice, 0, 0, kOptional,
+        "what voxelizes; the CPU keeps up with one lidar, and a CUDA context costs each process several "
+        "hundred MB of GPU memory"},
+       [](L& c) -> Field { return &c.backend; }},
   };
   return rows;
 }

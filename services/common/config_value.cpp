@@ -6,6 +6,8 @@
 #include <limits>
 #include <optional>
 
+#include "services/common/backend_word.hpp"
+
 namespace gvom::services {
 
 namespace {
@@ -75,6 +77,12 @@ bool assign_text(const RowInfo& row, const YAML::Node& node, std::string& out) {
   return valid;
 }
 
+bool assign_choice(const YAML::Node& node, Backend& out) {
+  const auto backend = node.IsScalar() ? backend_of(node.Scalar()) : std::nullopt;
+  if (backend) out = *backend;
+  return backend.has_value();
+}
+
 bool assign_corner(const RowInfo& row, const YAML::Node& node, const BoxCorner& out) {
   if (!node.IsSequence() || node.size() != 3) return false;
   Eigen::Vector3d corner;
@@ -95,6 +103,7 @@ struct Assign {
   bool operator()(double* out) const { return assign_number(row, node, *out); }
   bool operator()(int* out) const { return assign_integer(row, node, *out); }
   bool operator()(std::string* out) const { return assign_text(row, node, *out); }
+  bool operator()(Backend* out) const { return assign_choice(node, *out); }
   bool operator()(const BoxCorner& out) const { return assign_corner(row, node, out); }
 };
 
@@ -108,10 +117,17 @@ std::string quoted(const std::string& text) {
   return result + "'";
 }
 
+std::string choices() {
+  std::string text;
+  for (const auto& choice : kBackendWords) text.append(text.empty() ? "" : ", ").append(choice.first);
+  return text;
+}
+
 struct ValueText {
   std::string operator()(const double* value) const { return number_text(*value); }
   std::string operator()(const int* value) const { return std::to_string(*value); }
   std::string operator()(const std::string* value) const { return quoted(*value); }
+  std::string operator()(const Backend* value) const { return std::string(word_of(*value)); }
   std::string operator()(const BoxCorner& value) const {
     if (!value.box->has_value()) return {};
     const Eigen::Vector3d& corner = (**value.box).*value.corner;
@@ -141,6 +157,8 @@ std::string range_text(const RowInfo& row) {
       return bounds + ", odd";
     case Rule::identifier:
       return "[a-z0-9_], 1 to 31 characters";
+    case Rule::choice:
+      return choices();
     case Rule::text:
       break;
   }
@@ -153,6 +171,8 @@ std::string expected_text(const RowInfo& row, const Field& field) {
       return "a name of " + range_text(row);
     case Rule::text:
       return "one line of text";
+    case Rule::choice:
+      return "one of " + range_text(row);
     case Rule::corner:
       return "a list [x, y, z] of numbers in " + range_text(row);
     default:

@@ -16,7 +16,7 @@ tl::expected<void, std::string> assign(const RowInfo& row, const YAML::Node& nod
 /// What a row takes: "a whole number in 8 .. 1024, a multiple of 8".
 std::string expected_text(const RowInfo& row, const Field& field);
 
-/// The bounds alone, "8 .. 1024, a multiple of 8"; empty where there are none.
+/// The bounds alone, "8 .. 1024, a multiple of 8", or the words to choose from; empty where there are none.
 std::string range_text(const RowInfo& row);
 
 /// YAML that `assign` reads back as the same value; empty for a corner of an absent box.

@@ -86,8 +86,9 @@ void HealthReport::set_state(ipc::HealthState state, std::string_view reason) {
   copy_text(message_.reason, reason);
 }
 
-void HealthReport::set_backend(std::string_view backend) {
-  copy_text(message_.backend, backend);
+void HealthReport::set_backend(std::string_view name, std::string_view details) {
+  copy_text(message_.backend, name);
+  copy_text(message_.backend_details, details);
 }
 
 const ipc::Health& HealthReport::take(std::int64_t mono_ns) {

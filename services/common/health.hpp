@@ -41,7 +41,8 @@ class HealthReport {
   StageHistogram& stage(std::string_view name);
 
   void set_state(ipc::HealthState state, std::string_view reason = {});  ///< Over-long reasons are cut.
-  void set_backend(std::string_view backend);
+  /// What computes, and why and on what; over-long details are cut.
+  void set_backend(std::string_view name, std::string_view details);
   void count_product() { ++products_; }  ///< One more of what the process makes: rate_hz.
 
   [[nodiscard]] ipc::HealthState state() const { return static_cast<ipc::HealthState>(message_.state); }

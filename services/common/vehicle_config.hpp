@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/backend.hpp"
 #include "core/config.hpp"
 
 namespace gvom::services {
@@ -27,6 +28,7 @@ struct LidarConfig {
   LidarGeometry geometry;  ///< T_base_sensor (made of `extrinsic`), min_range_m, max_range_m.
   double min_sweep_fraction = 0.5;  ///< Sweeps with less of their columns are dropped, 0 .. 1.
   int max_returns = 262144;         ///< Room for one sweep; more are dropped and counted, 1 .. 4194304.
+  Backend backend = Backend::cpu;   ///< What voxelizes. Each process on a GPU takes a context's memory there.
 };
 
 /// `odometry.*`.
@@ -37,7 +39,8 @@ struct OdometryConfig {
 
 /// `fusion.*`.
 struct FusionConfig {
-  double rate_hz = 0.0;  ///< Layers at this rate; 0: on each map, 0 .. 100.
+  Backend backend = Backend::automatic;  ///< What fuses and makes the layers.
+  double rate_hz = 0.0;                  ///< Layers at this rate; 0: on each map, 0 .. 100.
   double voxel_rate_hz =
       2.0;  ///< VoxelMap at most this often, and only if somebody reads it; 0: never, 0 .. 100.
 };

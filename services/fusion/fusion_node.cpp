@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <string>
+#include <utility>
 
 #include "ipc/text.hpp"
 #include "services/common/bus/core_types.hpp"
@@ -41,34 +42,16 @@ ipc::Expected<Bus> Bus::open(ipc::Runtime& runtime, const services::VehicleConfi
              std::move(*voxels), std::move(*progress), std::move(*health)};
 }
 
-FusionCounters::FusionCounters(services::HealthReport& health)
-    : maps_in(health.counter("maps_in")),
-      maps_fused(health.counter("maps_fused")),
-      maps_lost(health.counter("maps_lost")),
-      drop_map_too_old(health.counter("drop_map_too_old")),
-      drop_map_duplicate(health.counter("drop_map_duplicate")),
-      drop_map_wrong_grid(health.counter("drop_map_wrong_grid")),
-      drop_map_old_epoch(health.counter("drop_map_old_epoch")),
-      drop_map_refused(health.counter("drop_map_refused")),
-      layers_out(health.counter("layers_out")),
-      drop_layers_no_chunk(health.counter("drop_layers_no_chunk")),
-      voxel_maps_out(health.counter("voxel_maps_out")),
-      drop_voxels_no_chunk(health.counter("drop_voxels_no_chunk")),
-      epochs(health.counter("epochs")),
-      fuse(health.stage("fuse")),
-      make_layers(health.stage("make_layers")),
-      received_to_layers(health.stage("received_to_layers")) {}
-
 FusionNode::FusionNode(const services::VehicleConfig& config, ipc::Runtime& runtime, Bus& bus,
-                       services::Lifecycle& lifecycle)
+                       services::Lifecycle& lifecycle, OpenBackend<FusionBackend> backend)
     : config_(config),
       bus_(bus),
       lifecycle_(lifecycle),
       broker_(runtime),
       health_(runtime.name()),
       counters_(health_),
-      fuser_(config.mapper) {
-  health_.set_backend("cpu");
+      fuser_(std::move(backend.backend)) {
+  health_.set_backend(backend.name, backend.details);
   lifecycle_.on_stop([this] { bus_.waiter.wake(); });
 }
 
@@ -78,11 +61,12 @@ FusionNode::~FusionNode() {
 
 services::ExitCode FusionNode::run() {
   services::notify_ready();
-  while (!lifecycle_.stopping() && failure_.empty()) {
+  while (!lifecycle_.stopping()) {
     fuse_arrived();
     const std::int64_t now_ns = ipc::monotonic_ns();
     if (config_.fusion.rate_hz > 0 && tick_due(now_ns)) publish_layers();
     publish_voxels();
+    if (failure_) break;
     publish_progress();
     publish_health();
     broker_.check();
@@ -93,20 +77,19 @@ services::ExitCode FusionNode::run() {
     bus_.waiter.wait(timeout);
   }
   services::notify_stopping();
-  health_.set_state(ipc::HealthState::stopping, failure_);
-  publish_health();
+  health_.set_state(failure_ ? ipc::HealthState::failed : ipc::HealthState::stopping, failure_.value_or(""));
+  send_health(ipc::monotonic_ns());
   spdlog::info("{} maps fused, {} layers published", counters_.maps_fused, counters_.layers_out);
-  if (failure_.empty()) return services::ExitCode::ok;
-  spdlog::critical("{}: leaving, to be started again", failure_);
-  return services::ExitCode::try_again;
+  return failure_ ? services::ExitCode::try_again : services::ExitCode::ok;
 }
 
 void FusionNode::fuse_arrived() {
   while (const auto map = bus_.inbox.take()) {
     fuse(*map);
+    if (failure_) return;
     if (config_.fusion.rate_hz <= 0 ? fresh_ : tick_due(ipc::monotonic_ns())) publish_layers();
     publish_progress();
-    if (lifecycle_.stopping() || !failure_.empty()) return;
+    if (lifecycle_.stopping() || failure_) return;
   }
   if (const auto refusal = bus_.inbox.new_refusal()) spdlog::error("{}", *refusal);
 }
@@ -122,7 +105,10 @@ void FusionNode::fuse(const ArrivedMap& map) {
   }
   const std::int64_t begin_ns = ipc::monotonic_ns();
   const auto result = fuser_.add({services::view_of(*map.sample), map.lidar, map.token});
-  if (!result) return fail(result.error());
+  if (!result) {  // the device may still read the map: it is not released
+    ++counters_.drop_map_backend_failed;
+    return fail(result.error());
+  }
   if (*result != AddResult::added) {
     count_refusal(*result);
     return bus_.inbox.release(map.token);
@@ -165,9 +151,11 @@ void FusionNode::count_refusal(AddResult result) {
   }
 }
 
-// Nothing of this process's map can be trusted any more: it leaves, to be started again.
 void FusionNode::fail(const DeviceError& error) {
-  if (failure_.empty()) failure_ = error.what;
+  failure_ = error.what;
+  fresh_ = false;
+  voxels_fresh_ = false;
+  spdlog::critical("{}: leaving, to be started again", error.what);
 }
 
 bool FusionNode::tick_due(std::int64_t now_ns) const {
@@ -187,6 +175,7 @@ void FusionNode::publish_layers() {
     return;
   }
   if (const auto made = fuser_.make_layers(services::arrays_of(*writer)); !made) return fail(made.error());
+  record_costs();
   ipc::Layers& header = writer->header();
   services::set_frame(moment.grid, moment.T_odom_base, header);
   fill_lidars(header);
@@ -203,6 +192,13 @@ void FusionNode::publish_layers() {
   services::notify_watchdog();
   voxels_fresh_ = true;
   publish_voxels();
+}
+
+void FusionNode::record_costs() {
+  const auto costs = fuser_.backend().last_costs();
+  if (!costs) return;
+  if (!device_stages_) device_stages_.emplace(health_);
+  device_stages_->record(*costs);
 }
 
 void FusionNode::fill_lidars(ipc::Layers& header) const {
@@ -261,22 +257,23 @@ void FusionNode::publish_progress() {
 
 void FusionNode::publish_health() {
   const std::int64_t now_ns = ipc::monotonic_ns();
-  const bool stopping = health_.state() == ipc::HealthState::stopping;
-  if (!health_.due(now_ns) && !stopping) return;
+  if (!health_.due(now_ns)) return;
+  if (last_layers_ns_ == 0)
+    health_.set_state(ipc::HealthState::starting, "no maps yet");
+  else if (now_ns - last_layers_ns_ < kStale_ns)
+    health_.set_state(ipc::HealthState::ok);
+  else
+    health_.set_state(ipc::HealthState::degraded, "no maps: the layers are old");
+  services::notify_watchdog();
+  send_health(now_ns);
+}
+
+void FusionNode::send_health(std::int64_t now_ns) {
   counters_.maps_lost = 0;
   counters_.drop_map_refused = 0;
   for (const MapInbox::Lidar& lidar : bus_.inbox.lidars()) {
     counters_.maps_lost += lidar.maps.counters().lost;
     counters_.drop_map_refused += lidar.maps.counters().refused();
-  }
-  if (!stopping) {
-    if (last_layers_ns_ == 0)
-      health_.set_state(ipc::HealthState::starting, "no maps yet");
-    else if (now_ns - last_layers_ns_ < kStale_ns)
-      health_.set_state(ipc::HealthState::ok);
-    else
-      health_.set_state(ipc::HealthState::degraded, "no maps: the layers are old");
-    services::notify_watchdog();
   }
   const ipc::Health& health = health_.take(now_ns);
   char status[96];

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/mapper.hpp"
+#include "core/open_backend.hpp"
 #include "ipc/brick_map.hpp"
 #include "ipc/fixed.hpp"
 #include "ipc/layers.hpp"
@@ -16,6 +17,7 @@
 #include "services/common/lifecycle.hpp"
 #include "services/common/log.hpp"
 #include "services/common/vehicle_config.hpp"
+#include "services/fusion/fusion_counters.hpp"
 #include "services/fusion/map_inbox.hpp"
 
 namespace gvom::fusion {
@@ -32,36 +34,15 @@ struct Bus {
   static ipc::Expected<Bus> open(ipc::Runtime& runtime, const services::VehicleConfig& config);
 };
 
-/// What fusion counts, as Health tells it.
-struct FusionCounters {
-  explicit FusionCounters(services::HealthReport& health);
-
-  std::uint64_t& maps_in;
-  std::uint64_t& maps_fused;
-  std::uint64_t& maps_lost;  // gaps in their sequences
-  std::uint64_t& drop_map_too_old;
-  std::uint64_t& drop_map_duplicate;
-  std::uint64_t& drop_map_wrong_grid;
-  std::uint64_t& drop_map_old_epoch;
-  std::uint64_t& drop_map_refused;  // not readable: version, size
-  std::uint64_t& layers_out;
-  std::uint64_t& drop_layers_no_chunk;
-  std::uint64_t& voxel_maps_out;
-  std::uint64_t& drop_voxels_no_chunk;
-  std::uint64_t& epochs;
-  services::StageHistogram& fuse;
-  services::StageHistogram& make_layers;
-  services::StageHistogram& received_to_layers;
-};
-
 class FusionNode {
  public:
-  /// All references outlive the node.
+  /// All references outlive the node. The back end reads maps where the bus holds them: it goes with the
+  /// node.
   FusionNode(const services::VehicleConfig& config, ipc::Runtime& runtime, Bus& bus,
-             services::Lifecycle& lifecycle);
+             services::Lifecycle& lifecycle, OpenBackend<FusionBackend> backend);
   ~FusionNode();
 
-  /// Until a stop.
+  /// Until a stop (ok), or the back end fails (try_again): nothing that it made since goes out.
   services::ExitCode run();
 
  private:
@@ -69,13 +50,16 @@ class FusionNode {
   void fuse(const ArrivedMap& map);
   void begin_epoch(std::uint64_t epoch);
   void count_refusal(AddResult result);
+  /// Nothing of this process's map can be trusted any more: it leaves, to be started again.
   void fail(const DeviceError& error);
   [[nodiscard]] bool tick_due(std::int64_t now_ns) const;
   void publish_layers();
+  void record_costs();
   void fill_lidars(ipc::Layers& header) const;
   void publish_voxels();
   void publish_progress();
   void publish_health();
+  void send_health(std::int64_t now_ns);
 
   const services::VehicleConfig& config_;
   Bus& bus_;
@@ -83,6 +67,7 @@ class FusionNode {
   services::BrokerWatch broker_;
   services::HealthReport health_;
   FusionCounters counters_;
+  std::optional<DeviceStages> device_stages_;  // if a device fuses
   services::LogEvery log_drops_{std::chrono::seconds(10)};
 
   MapFuser fuser_;
@@ -96,7 +81,7 @@ class FusionNode {
   std::int64_t next_progress_ns_ = 0;
   std::int64_t last_layers_ns_ = 0;
   bool progress_news_ = true;
-  std::string failure_;  // of the back end, for good
+  std::optional<std::string> failure_;  // of the back end, for good
 };
 
 }  // namespace gvom::fusion

@@ -1,7 +1,11 @@
 // gvom-fusion: buffer maps of all lidars to one map and its layers.
 #include <spdlog/spdlog.h>
 
+#include <utility>
+
+#include "core/open_backend.hpp"
 #include "services/common/bus/join.hpp"
+#include "services/common/bus/pool_spec.hpp"
 #include "services/common/cli.hpp"
 #include "services/common/lifecycle.hpp"
 #include "services/common/log.hpp"
@@ -12,17 +16,30 @@ namespace {
 using namespace gvom;
 using services::ExitCode;
 
+FusionSetup setup_of(const services::VehicleConfig& config, const HostMemory& shared) {
+  FusionSetup setup;
+  setup.config = config.mapper;
+  setup.lidars = static_cast<int>(config.lidars.size());
+  setup.max_returns = static_cast<std::size_t>(services::pool_spec(config).max_returns);
+  setup.shared = shared;
+  return setup;
+}
+
 ExitCode run(const services::VehicleConfig& config, services::Lifecycle& lifecycle) {
   auto runtime = services::join_bus("gvom-fusion", lifecycle);
   if (!runtime) return runtime.error();
+  auto backend = open_fusion(config.fusion.backend, setup_of(config, services::ready_payloads(*runtime)));
+  if (!backend) {
+    spdlog::error("fusion.backend cuda: {}", backend.error().what);
+    return ExitCode::unavailable;
+  }
+  spdlog::info("fusing {} lidars on {}: {}", config.lidars.size(), backend->name, backend->details);
   auto bus = fusion::Bus::open(*runtime, config);
   if (!bus) {
     spdlog::error("{}", bus.error().message);
     return services::exit_code_of(bus.error());
   }
-  if (const auto faulted = runtime->prefault(); !faulted) spdlog::warn("{}", faulted.error().message);
-  fusion::FusionNode node(config, *runtime, *bus, lifecycle);
-  spdlog::info("fusing {} lidars on the CPU", config.lidars.size());
+  fusion::FusionNode node(config, *runtime, *bus, lifecycle, std::move(*backend));
   return node.run();
 }
 

@@ -10,6 +10,7 @@ IngestCounters::IngestCounters(services::HealthReport& health)
       drop_after_odometry(health.counter("drop_after_odometry")),
       drop_overrun(health.counter("drop_overrun")),
       drop_no_chunk(health.counter("drop_no_chunk")),
+      drop_backend_failed(health.counter("drop_backend_failed")),
       sweep_incomplete(health.counter("sweep_incomplete")),
       drop_sweep_incomplete(health.counter("drop_sweep_incomplete")),
       odometry_in(health.counter("odometry_in")),

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "core/cpu/voxelizer.hpp"
+#include "core/returns.hpp"
 #include "services/common/health.hpp"
 #include "services/ingest/source.hpp"
 
@@ -23,6 +23,7 @@ struct IngestCounters {
   std::uint64_t& drop_after_odometry;    // left when a replay ended
   std::uint64_t& drop_overrun;           // live sweeps that the loop was too slow for
   std::uint64_t& drop_no_chunk;          // shared memory exhausted
+  std::uint64_t& drop_backend_failed;    // the last one then: the process leaves
   std::uint64_t& sweep_incomplete;
   std::uint64_t& drop_sweep_incomplete;
   std::uint64_t& odometry_in;

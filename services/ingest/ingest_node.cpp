@@ -41,8 +41,7 @@ ipc::Expected<Bus> Bus::open(ipc::Runtime& runtime, const services::VehicleConfi
 }
 
 IngestNode::IngestNode(const services::VehicleConfig& config, const services::LidarConfig& lidar,
-                       ipc::Runtime& runtime, Bus& bus, services::Lifecycle& lifecycle,
-                       std::unique_ptr<Source> source)
+                       ipc::Runtime& runtime, Bus& bus, services::Lifecycle& lifecycle, Equipment equipment)
     : lidar_(lidar),
       odometry_timeout_ns_(static_cast<std::int64_t>(config.odometry.timeout_s * 1e9)),
       bus_(bus),
@@ -50,11 +49,11 @@ IngestNode::IngestNode(const services::VehicleConfig& config, const services::Li
       broker_(runtime),
       health_(runtime.name()),
       counters_(health_),
-      mapper_(config.mapper, lidar.geometry, static_cast<std::size_t>(lidar.max_returns)),
+      mapper_(config.mapper.map, std::move(equipment.backend.backend)),
       credit_(lidar.name),
-      reader_(std::move(source), static_cast<std::size_t>(lidar.max_returns),
+      reader_(std::move(equipment.source), static_cast<std::size_t>(lidar.max_returns),
               [this] { bus_.waiter.wake(); }) {
-  health_.set_backend("cpu");
+  health_.set_backend(equipment.backend.name, equipment.backend.details);
   lifecycle_.on_stop([this] { bus_.waiter.wake(); });
 }
 
@@ -68,6 +67,10 @@ ExitCode IngestNode::run() {
   while (!lifecycle_.stopping()) {
     take_odometry();
     const bool all_mapped = map_due_sweeps();
+    if (failure_) {
+      code = ExitCode::try_again;
+      break;
+    }
     if (all_mapped && is_settled()) acknowledged_sequence_ = odometry_sequence_;
     publish_progress();
     publish_health();
@@ -78,16 +81,11 @@ ExitCode IngestNode::run() {
       code = reader_.is_live() ? ExitCode::unavailable : ExitCode::bad_data;
       break;
     }
-    if (!failure_.empty()) {
-      spdlog::critical("{}: leaving, to be started again", failure_);
-      code = ExitCode::try_again;
-      break;
-    }
     bus_.waiter.wait(kLongestWait);
   }
   services::notify_stopping();
-  health_.set_state(ipc::HealthState::stopping, failure_);
-  publish_health();
+  health_.set_state(failure_ ? ipc::HealthState::failed : ipc::HealthState::stopping, failure_.value_or(""));
+  send_health(ipc::monotonic_ns());
   spdlog::info("{} of {} sweeps mapped", counters_.sweeps_mapped, counters_.sweeps_in);
   return code;
 }
@@ -145,7 +143,7 @@ bool IngestNode::map_due_sweeps() {
     map_sweep(*sweep);
     reader_.give_back(sweep);
     front_since_ns_ = 0;
-    if (lifecycle_.stopping() || !failure_.empty()) return true;
+    if (lifecycle_.stopping() || failure_) return true;
   }
   return true;
 }
@@ -189,9 +187,10 @@ void IngestNode::map_sweep(const Sweep& sweep) {
   services::notify_watchdog();
 }
 
-// The back end is lost for good: this process leaves, to be started again.
 void IngestNode::fail(const std::string& what) {
+  ++counters_.drop_backend_failed;
   failure_ = what;
+  spdlog::critical("{}: leaving, to be started again", what);
 }
 
 bool IngestNode::publish(const Sweep& sweep, const BrickMapShape& shape, std::int64_t begin_ns) {
@@ -214,8 +213,10 @@ bool IngestNode::publish(const Sweep& sweep, const BrickMapShape& shape, std::in
   header.mono_received_ns = sweep.received_ns != 0 ? sweep.received_ns : odometry_came_ns_;
   header.mono_mapped_ns = begin_ns;
   counters_.wait.record_ns(begin_ns - header.mono_received_ns);
-  if (const auto written = mapper_.write(services::arrays_of(*writer)); !written)
-    return fail(written.error().what), false;
+  if (const auto written = mapper_.write(services::arrays_of(*writer)); !written) {
+    fail(written.error().what);
+    return false;
+  }
   bus_.maps.publish(std::move(*writer), sweep.stamp_ns, epoch_);
   return true;
 }
@@ -248,17 +249,19 @@ void IngestNode::publish_progress() {
 
 void IngestNode::publish_health() {
   const std::int64_t now_ns = ipc::monotonic_ns();
-  if (!health_.due(now_ns) && health_.state() != ipc::HealthState::stopping) return;
+  if (!health_.due(now_ns)) return;
+  if (last_map_ns_ == 0)
+    health_.set_state(ipc::HealthState::starting, odometry_.empty() ? "no odometry yet" : "no sweep yet");
+  else if (end_of_stream_ || now_ns - last_map_ns_ < 1'000'000'000)
+    health_.set_state(ipc::HealthState::ok);
+  else
+    health_.set_state(ipc::HealthState::degraded, reader_.front_stamp() ? "no odometry" : "no sweeps");
+  services::notify_watchdog();
+  send_health(now_ns);
+}
+
+void IngestNode::send_health(std::int64_t now_ns) {
   counters_.copy(reader_.counters(), reader_.overruns(), bus_.odometry.counters().lost);
-  if (health_.state() != ipc::HealthState::stopping) {
-    if (last_map_ns_ == 0)
-      health_.set_state(ipc::HealthState::starting, odometry_.empty() ? "no odometry yet" : "no sweep yet");
-    else if (end_of_stream_ || now_ns - last_map_ns_ < 1'000'000'000)
-      health_.set_state(ipc::HealthState::ok);
-    else
-      health_.set_state(ipc::HealthState::degraded, reader_.front_stamp() ? "no odometry" : "no sweeps");
-    services::notify_watchdog();
-  }
   const ipc::Health& health = health_.take(now_ns);
   char status[128];
   std::snprintf(status, sizeof status, "%.1f maps/s, %llu of %llu sweeps mapped", health.rate_hz,

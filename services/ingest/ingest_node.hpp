@@ -3,9 +3,11 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "core/mapper.hpp"
+#include "core/open_backend.hpp"
 #include "ipc/brick_map.hpp"
 #include "ipc/fixed.hpp"
 #include "ipc/runtime.hpp"
@@ -34,14 +36,21 @@ struct Bus {
                                  const std::string& lidar);
 };
 
+/// What was opened for the lidar: where its sweeps come from and what voxelizes them.
+struct Equipment {
+  std::unique_ptr<Source> source;
+  OpenBackend<VoxelizerBackend> backend;
+};
+
 class IngestNode {
  public:
-  /// All references outlive the node. `source` was opened for `lidar`, one of `config.lidars`.
+  /// All references outlive the node. `lidar` is one of `config.lidars`.
   IngestNode(const services::VehicleConfig& config, const services::LidarConfig& lidar, ipc::Runtime& runtime,
-             Bus& bus, services::Lifecycle& lifecycle, std::unique_ptr<Source> source);
+             Bus& bus, services::Lifecycle& lifecycle, Equipment equipment);
   ~IngestNode();
 
-  /// Until a stop (ok), or the source breaks (bad_data for a recording, unavailable for a sensor).
+  /// Until a stop (ok), the source breaks (bad_data for a recording, unavailable for a sensor), or the back
+  /// end fails (try_again).
   services::ExitCode run();
 
  private:
@@ -51,6 +60,7 @@ class IngestNode {
   bool map_due_sweeps();
   void map_sweep(const Sweep& sweep);
   bool publish(const Sweep& sweep, const BrickMapShape& shape, std::int64_t begin_ns);
+  /// The back end is lost for good, and the sweep in hand with it: this process leaves, to be started again.
   void fail(const std::string& what);
   bool give_up_late_sweep(std::int64_t stamp_ns);
   /// Whether the odometry has reached the stamp.
@@ -59,6 +69,7 @@ class IngestNode {
   [[nodiscard]] bool is_settled() const;
   void publish_progress();
   void publish_health();
+  void send_health(std::int64_t now_ns);
 
   const services::LidarConfig& lidar_;
   const std::int64_t odometry_timeout_ns_;
@@ -86,7 +97,7 @@ class IngestNode {
   std::uint64_t told_odometry_ = 0;
   std::uint64_t told_maps_ = 0;
   std::int64_t last_map_ns_ = 0;
-  std::string failure_;  // of the back end, for good
+  std::optional<std::string> failure_;  // of the back end, for good
 };
 
 }  // namespace gvom::ingest

@@ -1,6 +1,9 @@
 // gvom-ingest: sweeps of one lidar to buffer maps.
 #include <spdlog/spdlog.h>
 
+#include <utility>
+
+#include "core/open_backend.hpp"
 #include "services/common/bus/join.hpp"
 #include "services/common/cli.hpp"
 #include "services/common/lifecycle.hpp"
@@ -24,14 +27,21 @@ ExitCode run(const services::VehicleConfig& config, const services::LidarConfig&
   for (const std::string& warning : (*source)->warnings()) spdlog::warn("{}", warning);
   auto runtime = services::join_bus("gvom-ingest-" + lidar.name, lifecycle);
   if (!runtime) return runtime.error();
+  const VoxelizerSetup setup{config.mapper.map, lidar.geometry, config.mapper.vehicle,
+                             static_cast<std::size_t>(lidar.max_returns), services::ready_payloads(*runtime)};
+  auto backend = open_voxelizer(lidar.backend, setup);
+  if (!backend) {
+    spdlog::error("lidars.{}.backend cuda: {}", lidar.name, backend.error().what);
+    return ExitCode::unavailable;
+  }
+  spdlog::info("{} from {} on {}: {}", lidar.name, lidar.source, backend->name, backend->details);
   auto bus = ingest::Bus::open(*runtime, config, lidar.name);
   if (!bus) {
     spdlog::error("{}", bus.error().message);
     return services::exit_code_of(bus.error());
   }
-  if (const auto faulted = runtime->prefault(); !faulted) spdlog::warn("{}", faulted.error().message);
-  spdlog::info("{} from {}", lidar.name, lidar.source);
-  ingest::IngestNode node(config, lidar, *runtime, *bus, lifecycle, std::move(*source));
+  ingest::IngestNode node(config, lidar, *runtime, *bus, lifecycle,
+                          {std::move(*source), std::move(*backend)});
   return node.run();
 }
 

@@ -160,6 +160,24 @@ TEST_CASE("values out of range are refused") {
   CHECK(loaded(kMinimal, {"name=" + std::string(31, 'a')}).name.size() == 31);
 }
 
+TEST_CASE("a back end is chosen by its word") {
+  const auto defaults = loaded(kMinimal);
+  CHECK(defaults.fusion.backend == Backend::automatic);
+  CHECK(defaults.lidars[0].backend == Backend::cpu);
+  const auto config =
+      loaded(kMinimal + "    backend: auto\nfusion: {backend: 'cpu'}\n", {"lidars.top.backend=cuda"});
+  CHECK(config.fusion.backend == Backend::cpu);
+  CHECK(config.lidars[0].backend == Backend::cuda);
+  CHECK(loaded(kMinimal + "    backend: auto\n").lidars[0].backend == Backend::automatic);
+
+  const std::string expected = "backend: expected one of auto, cpu, cuda, found ";
+  CHECK(error_of(kMinimal + "fusion: {backend: gpu}\n") == "FILE:5: fusion." + expected + "'gpu'");
+  CHECK(error_of(kMinimal + "    backend: CUDA\n") == "FILE:5: lidars.top." + expected + "'CUDA'");
+  CHECK(error_of(kMinimal, {"fusion.backend="}) == "--set fusion.backend=: fusion." + expected + "''");
+  CHECK(error_of(kMinimal, {"fusion.backend=[cpu]"}) ==
+        "--set fusion.backend=[cpu]: fusion." + expected + "a list of 1");
+}
+
 TEST_CASE("keys that contradict each other are refused") {
   CHECK(error_of(kMinimal + "    min_range_m: 5\n    max_range_m: 5\n") ==
         "FILE:6: lidars.top.max_range_m: expected more than min_range_m");

@@ -7,6 +7,7 @@
 #include <set>
 #include <sstream>
 
+#include "services/common/backend_word.hpp"
 #include "services/common/config_file.hpp"
 #include "services/common/config_rows.hpp"
 #include "tests/common/temporary_file.hpp"
@@ -33,6 +34,10 @@ class Random {
     if (auto* const* number = std::get_if<double*>(&field)) **number = uniform(row.min, row.max);
     if (auto* const* whole = std::get_if<int*>(&field)) **whole = integer(row);
     if (auto* const* text = std::get_if<std::string*>(&field)) **text = this->text(row.rule);
+    if (auto* const* backend = std::get_if<Backend*>(&field)) {
+      const auto& words = services::kBackendWords;
+      **backend = words[static_cast<std::size_t>(uniform(0, std::size(words)))].second;
+    }
   }
 
   double uniform(double min, double max) { return std::uniform_real_distribution<double>(min, max)(engine_); }
@@ -99,8 +104,10 @@ TEST_CASE("any configuration that is printed loads again to the same, to the bit
       const auto& T_a = again->lidars[i].geometry.T_base_sensor.matrix();
       REQUIRE(T_a == config.lidars[i].geometry.T_base_sensor.matrix());
       REQUIRE(again->lidars[i].source == config.lidars[i].source);
+      REQUIRE(again->lidars[i].backend == config.lidars[i].backend);
     }
     REQUIRE(again->odometry.source == config.odometry.source);
+    REQUIRE(again->fusion.backend == config.fusion.backend);
     REQUIRE(again->mapper.map.resolution_xy_m == config.mapper.map.resolution_xy_m);
     REQUIRE(again->mapper.vehicle.body.has_value() == config.mapper.vehicle.body.has_value());
   }
@@ -128,6 +135,7 @@ TEST_CASE("no key stands twice in the table and every key has its field for itse
     const Field field = row.field(config);
     if (auto* const* number = std::get_if<double*>(&field)) CHECK(fields.insert(*number).second);
     if (auto* const* whole = std::get_if<int*>(&field)) CHECK(fields.insert(*whole).second);
+    if (auto* const* backend = std::get_if<Backend*>(&field)) CHECK(fields.insert(*backend).second);
   }
 }
 

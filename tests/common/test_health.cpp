@@ -59,7 +59,7 @@ TEST_CASE("a message holds counters, stages since the last one, rate and state")
   HealthReport report("gvom-test");
   std::uint64_t& sweeps = report.counter("sweeps");
   StageHistogram& mapping = report.stage("mapping");
-  report.set_backend("cpu");
+  report.set_backend("cpu", "as configured");
   report.set_state(ipc::HealthState::degraded, std::string(200, 'x'));
   report.take(10 * kSecond);
 
@@ -69,6 +69,7 @@ TEST_CASE("a message holds counters, stages since the last one, rate and state")
   const ipc::Health& message = report.take(12 * kSecond);
   CHECK(std::string(message.process) == "gvom-test");
   CHECK(std::string(message.backend) == "cpu");
+  CHECK(std::string(message.backend_details) == "as configured");
   CHECK(message.state == 2);
   CHECK(std::string(message.reason) == std::string(159, 'x'));
   CHECK(message.rate_hz == Approx(10.0));

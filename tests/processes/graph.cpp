@@ -27,11 +27,11 @@ std::unique_ptr<Program> Graph::start(const std::string& name,
 }
 
 void Graph::start_fusion() {
-  fusion_ = start("gvom-fusion", {});
+  fusion_ = start("gvom-fusion" + vehicle_.variant, {});
 }
 
 void Graph::start_ingest(const std::string& lidar) {
-  ingests_[lidar] = start("gvom-ingest", {"--lidar", lidar});
+  ingests_[lidar] = start("gvom-ingest" + vehicle_.variant, {"--lidar", lidar});
 }
 
 void Graph::start_readers() {

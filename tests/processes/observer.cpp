@@ -165,6 +165,11 @@ std::string Observer::drops(const std::string& process) const {
   return text;
 }
 
+std::string Observer::backend(const std::string& process) const {
+  const auto told = health(process);
+  return told ? std::string(told->backend) + ": " + told->backend_details : "";
+}
+
 bool Observer::sees(const std::string& process, ipc::HealthState state) const {
   return eventually([&] {
     const auto told = health(process);

@@ -30,6 +30,8 @@ class Observer {
   [[nodiscard]] std::uint64_t counter(const std::string& process, const std::string& name) const;
   /// The counters called drop_* of a process's last Health that are not zero, with their values.
   [[nodiscard]] std::string drops(const std::string& process) const;
+  /// What computes, "NAME: DETAILS", as the process's last Health has it; empty if there was none yet.
+  [[nodiscard]] std::string backend(const std::string& process) const;
   /// Waits for a process's Health of this state.
   [[nodiscard]] bool sees(const std::string& process, ipc::HealthState state) const;
   /// Chunks in use in each payload pool, by size, as of the broker's next report but one.

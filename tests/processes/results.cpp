@@ -46,15 +46,20 @@ int map_count(const std::string& folder) {
   return static_cast<int>(maps_in(folder).size());
 }
 
-std::string last_map(const std::string& folder) {
+std::string map_of(const std::string& folder, int index) {
   const auto maps = maps_in(folder);
-  REQUIRE(!maps.empty());
-  return maps.back();
+  REQUIRE((index >= 0 && static_cast<std::size_t>(index) < maps.size()));
+  return maps[static_cast<std::size_t>(index)];
+}
+
+std::string last_map(const std::string& folder) {
+  return map_of(folder, map_count(folder) - 1);
 }
 
 std::string map_offline(const Vehicle& vehicle, const std::string& out) {
   const std::string folder = vehicle.folder + "/" + out;
-  const Ended mapped = run("gvom-map", vehicle.arguments({"--voxels", "--out", folder}), vehicle.folder);
+  const Ended mapped =
+      run("gvom-map" + vehicle.variant, vehicle.arguments({"--voxels", "--out", folder}), vehicle.folder);
   INFO(mapped.output);
   REQUIRE(mapped.code == 0);
   return folder;

@@ -16,8 +16,9 @@ struct Voxel {
 };
 bool operator==(const Voxel& a, const Voxel& b);
 
-/// Number of maps in a folder of gvom-map's, and the last of them.
+/// Number of maps in a folder of gvom-map's, the one of an index, and the last of them.
 int map_count(const std::string& folder);
+std::string map_of(const std::string& folder, int index);
 std::string last_map(const std::string& folder);
 
 /// Runs gvom-map over the vehicle's recording, with voxels; returns its folder, OUT in the vehicle's folder.

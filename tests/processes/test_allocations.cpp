@@ -121,8 +121,11 @@ void ingest_life(const Vehicle& vehicle, Shared& shared) {
   EXPECT(runtime->prefault());
   count_allocations(shared.ingest);
   const FaultWatch faults(shared.ingest, shared.ingest_faults);
-  ingest::IngestNode node(config, lidar, *runtime, *bus, lifecycle,
-                          std::make_unique<EndlessSource>(std::move(*recording), shared));
+  ingest::IngestNode node(
+      config, lidar, *runtime, *bus, lifecycle,
+      {std::make_unique<EndlessSource>(std::move(*recording), shared),
+       {std::make_unique<cpu::Voxelizer>(config.mapper.map, lidar.geometry, config.mapper.vehicle, 65536),
+        "cpu", "in a test"}});
   EXPECT(node.run() == services::ExitCode::ok);
 }
 
@@ -136,7 +139,8 @@ void fusion_life(const Vehicle& vehicle, Shared& shared) {
   EXPECT(runtime->prefault());
   count_allocations(shared.fusion);
   const FaultWatch faults(shared.fusion, shared.fusion_faults);
-  fusion::FusionNode node(config, *runtime, *bus, lifecycle);
+  fusion::FusionNode node(config, *runtime, *bus, lifecycle,
+                          {std::make_unique<cpu::Fusion>(config.mapper), "cpu", "in a test"});
   EXPECT(node.run() == services::ExitCode::ok);
 }
 

@@ -6,6 +6,7 @@
 
 #include "tests/processes/observer.hpp"
 #include "tests/processes/recordings.hpp"
+#include "tests/processes/replays.hpp"
 #include "tests/tools/temporary_folder.hpp"
 
 using namespace gvom::test;
@@ -13,40 +14,6 @@ using gvom::ipc::test::eventually;
 namespace fs = std::filesystem;
 
 namespace {
-
-/// Maps that the ingests say they made, of all the sweeps that came to them.
-void check_all_mapped(Graph& graph, int expected_maps) {
-  int mapped = 0;
-  for (const std::string& lidar : graph.vehicle().lidars) {
-    const std::string output = graph.ingest(lidar).output();
-    INFO(output);
-    const auto numbers = numbers_before(output, "sweeps mapped");
-    REQUIRE(numbers.size() == 2);
-    CHECK(numbers[0] == numbers[1]);
-    mapped += numbers[0];
-  }
-  CHECK(mapped == expected_maps);
-  const std::string output = graph.fusion().output();
-  INFO(output);
-  CHECK(numbers_before(output, "maps fused") == std::vector<int>{expected_maps});
-  CHECK(numbers_before(output, "layers published") == std::vector<int>{expected_maps});
-}
-
-/// Replays the vehicle's recording through the processes and compares the layers at its end.
-void check_replay(const Vehicle& vehicle, const std::string& rate, const std::string& expected_maps) {
-  INFO("--rate " << rate);
-  const std::string pictures = vehicle.folder + "/pictures-" + rate;
-  Graph graph(vehicle);
-  graph.start_readers();
-  const auto snapshot = graph.start("gvom-snapshot", {"--out", pictures, "--final", "--npy"});
-  graph.play_through(rate);
-  const int code = snapshot->stop();
-  INFO(snapshot->output());
-  REQUIRE(code == 0);
-  graph.stop();
-  CHECK(differences(last_map(expected_maps), last_map(pictures)) == "");
-  check_all_mapped(graph, map_count(expected_maps));
-}
 
 /// A scans folder with the returns of another whose y is positive, or the rest of them.
 void split_scans(const std::string& from, const std::string& to, bool left) {

@@ -2,9 +2,11 @@
 #include <spdlog/spdlog.h>
 
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "services/common/backend_word.hpp"
 #include "services/common/cli.hpp"
 #include "services/common/log.hpp"
 #include "tools/map/offline.hpp"
@@ -21,6 +23,7 @@ struct Options {
   std::string out;
   bool voxels = false;
   bool no_deskew = false;
+  std::string backend;
 };
 
 // `NAME=URI` for the vehicle's lidars; the exit code for what is wrong with them.
@@ -63,12 +66,25 @@ void say_warnings(const gvom::tools::OfflineMapper& mapper, std::vector<std::siz
   }
 }
 
+/// Of fusion and all lidars.
+void apply_backend(gvom::Backend backend, gvom::services::VehicleConfig& config) {
+  config.fusion.backend = backend;
+  for (gvom::services::LidarConfig& lidar : config.lidars) lidar.backend = backend;
+}
+
+void say_backends(const gvom::tools::OfflineMapper& mapper) {
+  for (const auto& lidar : mapper.lidars())
+    spdlog::info("lidar {} on {}: {}", lidar.name, lidar.backend.name, lidar.backend.details);
+  spdlog::info("fusion on {}: {}", mapper.fusion_backend().name, mapper.fusion_backend().details);
+}
+
 int run(const gvom::services::VehicleConfig& config, const Options& options) {
   auto mapper = gvom::tools::OfflineMapper::open(config, options.odometry, !options.no_deskew);
   if (!mapper) {
-    spdlog::error("{}", mapper.error());
-    return to_int(ExitCode::bad_data);
+    spdlog::error("{}", mapper.error().what);
+    return to_int(mapper.error().code);
   }
+  say_backends(*mapper);
   std::vector<std::size_t> told(mapper->lidars().size(), 0);
   gvom::tools::LayerBuffers layers(config.mapper.map.size_xy);
   gvom::tools::MappedSweep sweep;
@@ -77,10 +93,11 @@ int run(const gvom::services::VehicleConfig& config, const Options& options) {
   for (;;) {
     say_warnings(*mapper, told);
     const auto mapped = mapper->next(sweep);
-    if (!mapped) {  // one recording broke off; the others go on
-      spdlog::error("{}", mapped.error());
-      code = ExitCode::bad_data;
-      continue;
+    if (!mapped) {
+      spdlog::error("{}", mapped.error().what);
+      code = mapped.error().code;
+      if (code != ExitCode::bad_data) return to_int(code);
+      continue;  // one recording broke off; the others go on
     }
     if (!*mapped) break;
     const std::string folder = fmt::format("{}/{:06d}", options.out, maps++);
@@ -107,6 +124,10 @@ int main(int argc, char** argv) {
   cli.app().add_flag("--voxels", options.voxels, "write the fused voxels too");
   cli.app().add_flag("--no-deskew", options.no_deskew,
                      "give all returns of a sweep its stamp (R3 off, for comparison)");
+  cli.app()
+      .add_option("--backend", options.backend,
+                  "of fusion and all lidars, instead of fusion.backend and lidars.*.backend")
+      ->check(CLI::IsMember(std::set<std::string>{"auto", "cpu", "cuda"}));
   auto config = cli.parse(argc, argv);
   if (!config) return to_int(config.error());
   if (options.out.empty()) {
@@ -115,6 +136,7 @@ int main(int argc, char** argv) {
   }
   if (const ExitCode code = apply_sources(options.sources, *config); code != ExitCode::ok)
     return to_int(code);
+  if (const auto backend = gvom::services::backend_of(options.backend)) apply_backend(*backend, *config);
   if (options.odometry.empty()) options.odometry = config->odometry.source;
   if (options.odometry.empty()) {
     spdlog::error("no odometry: give --odometry tum:FILE or --odometry static");

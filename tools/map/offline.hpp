@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -11,6 +12,8 @@
 
 #include "core/brick_map_storage.hpp"
 #include "core/mapper.hpp"
+#include "core/open_backend.hpp"
+#include "services/common/exit_code.hpp"
 #include "services/common/vehicle_config.hpp"
 #include "services/ingest/source.hpp"
 
@@ -24,24 +27,40 @@ struct MappedSweep {
   FilterCounts filter;
 };
 
+/// A recording is not what it should be (bad_data), or a device is not there or was lost (unavailable).
+struct OfflineError {
+  services::ExitCode code;
+  std::string what;
+};
+
+template <class T>
+using OfflineExpected = tl::expected<T, OfflineError>;
+
+/// What computes, and why and on what: for people.
+struct BackendWords {
+  std::string name;
+  std::string details;
+};
+
 class OfflineMapper {
  public:
-  /// Opens the source of every lidar that has one. `odometry`: `tum:FILE`, or `static` for a vehicle that
-  /// stands at the origin. Without `deskew` all returns of a sweep take its stamp, to see what that costs.
-  /// Errors say which file and why.
-  static tl::expected<OfflineMapper, std::string> open(const services::VehicleConfig& config,
-                                                       const std::string& odometry, bool deskew = true);
+  /// Opens the source of every lidar that has one, and the back ends that the configuration asks for.
+  /// `odometry`: `tum:FILE`, or `static` for a vehicle that stands at the origin. Without `deskew` all
+  /// returns of a sweep take its stamp, to see what that costs. Errors say which file or back end and why.
+  static OfflineExpected<OfflineMapper> open(const services::VehicleConfig& config,
+                                             const std::string& odometry, bool deskew = true);
 
   /// Maps and fuses the next sweep in order of stamps (ties: by lidar name). Nothing at the end. Sweeps that
-  /// the odometry does not bracket are passed over and counted (R3). An error ends one lidar's recording: the
-  /// sweeps before it were mapped.
-  tl::expected<bool, std::string> next(MappedSweep& mapped);
+  /// the odometry does not bracket are passed over and counted (R3). An error bad_data ends one lidar's
+  /// recording: the sweeps before it were mapped. An error unavailable ends everything.
+  OfflineExpected<bool> next(MappedSweep& mapped);
 
   /// Layers of what is fused so far.
   DeviceExpected<void> make_layers(const LayerArrays& out) { return fuser_->make_layers(out); }
 
   [[nodiscard]] MapFuser& fuser() { return *fuser_; }
   [[nodiscard]] const MapFuser& fuser() const { return *fuser_; }
+  [[nodiscard]] const BackendWords& fusion_backend() const { return fusion_backend_; }
   [[nodiscard]] std::uint64_t sweeps_without_odometry() const { return without_odometry_; }
   [[nodiscard]] std::uint64_t maps_refused() const { return refused_; }
 
@@ -49,27 +68,29 @@ class OfflineMapper {
     std::string name;
     std::unique_ptr<ingest::Source> source;
     std::unique_ptr<SweepMapper> mapper;
+    BackendWords backend;
     Sweep sweep;  // the next one
     bool ended = false;
   };
   [[nodiscard]] const std::vector<Lidar>& lidars() const { return lidars_; }
 
  private:
-  tl::expected<void, std::string> add_odometry(const std::string& odometry);
-  tl::expected<void, std::string> add_lidar(const services::VehicleConfig& config,
-                                            const services::LidarConfig& lidar);
-  tl::expected<void, std::string> advance(Lidar& lidar);
-  bool map_sweep(std::size_t index, MappedSweep& mapped);
+  OfflineExpected<void> add_odometry(const std::string& odometry);
+  OfflineExpected<void> add_fusion(const services::VehicleConfig& config);
+  OfflineExpected<void> add_lidar(const services::VehicleConfig& config, const services::LidarConfig& lidar);
+  OfflineExpected<void> advance(Lidar& lidar);
+  OfflineExpected<bool> map_sweep(std::size_t index, MappedSweep& mapped);
 
   std::vector<Lidar> lidars_;  // sorted by name
   std::unique_ptr<OdometryBuffer> odometry_;
-  std::unique_ptr<MapFuser> fuser_;
   std::unordered_map<std::uint64_t, std::unique_ptr<BrickMapStorage>> window_;  // by token
+  std::unique_ptr<MapFuser> fuser_;                                             // reads what the window holds
+  BackendWords fusion_backend_;
   bool deskew_ = true;
   std::uint64_t next_token_ = 0;
   std::uint64_t without_odometry_ = 0;
   std::uint64_t refused_ = 0;
-  std::string error_;  // found while a sweep was read ahead; told after the sweeps before it
+  std::optional<OfflineError> error_;  // found while a sweep was read ahead; told after those before it
 };
 
 }  // namespace gvom::tools

@@ -95,8 +95,11 @@ tl::expected<void, std::string> write_meta(const std::string& folder, const Offl
                            {"body", filter.body}}},
                          {"sweeps_without_odometry", mapper.sweeps_without_odometry()},
                          {"maps_refused", mapper.maps_refused()}};
-  for (const OfflineMapper::Lidar& lidar : mapper.lidars())
+  meta["backend"]["fusion"] = mapper.fusion_backend().name;
+  for (const OfflineMapper::Lidar& lidar : mapper.lidars()) {
+    meta["backend"]["lidars"][lidar.name] = lidar.backend.name;
     meta["sources"][lidar.name] = source_counts(lidar.source->counters());
+  }
   std::ofstream file(folder + "/meta.json");
   file << meta.dump(2) << '\n';
   if (!file.flush()) return tl::unexpected(folder + "/meta.json: cannot be written");

@@ -105,6 +105,8 @@ std::string fusion_lines(const RunRecord& record) {
     text += fmt::format("fusion ({}): {} maps in, {} fused, {} dropped{}{}; {} layers published\n",
                         fusion->backend, fusion->counter("maps_in"), fusion->counter("maps_fused"),
                         maps.total, maps.total > 0 ? ": " : "", maps.words, fusion->counter("layers_out"));
+    if (!fusion->backend_details.empty())
+      text += fmt::format("  {}: {}\n", fusion->backend, fusion->backend_details);
     if (const std::string others = other_drops(*fusion); !others.empty())
       text += fmt::format("  also {}\n", others);
   }
@@ -170,7 +172,10 @@ std::string complaints(const RunRecord& record) {
 }
 
 nlohmann::json json_of(const ProcessRecord& process) {
-  nlohmann::json json = {{"name", process.name}, {"pid", process.pid}, {"backend", process.backend}};
+  nlohmann::json json = {{"name", process.name},
+                         {"pid", process.pid},
+                         {"backend", process.backend},
+                         {"backend_details", process.backend_details}};
   for (const auto& [name, value] : process.counters) json["counters"][name] = value;
   for (const Complaint& complaint : process.complaints)
     json["not_ok"].push_back({{"state", to_string(complaint.state)},

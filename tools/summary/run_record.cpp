@@ -53,6 +53,7 @@ double ProcessRecord::share_of_a_core() const {
 void RunRecord::add(const ipc::Health& health, const std::optional<Usage>& usage, std::int64_t mono_ns) {
   ProcessRecord& from = process(std::string(ipc::text_of(health.process)), health.pid);
   from.backend = ipc::text_of(health.backend);
+  from.backend_details = ipc::text_of(health.backend_details);
   from.counters.clear();
   const auto count = std::min<std::uint32_t>(health.counter_count, ipc::Health::kMaxCounters);
   for (std::uint32_t i = 0; i < count; ++i)

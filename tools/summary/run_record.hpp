@@ -24,6 +24,7 @@ struct ProcessRecord {
   std::string name;
   std::uint32_t pid = 0;
   std::string backend;
+  std::string backend_details;
   std::vector<std::pair<std::string, std::uint64_t>> counters;  ///< Newest values, in the process's order.
   std::vector<Complaint> complaints;  ///< What it said as degraded or failed, or if it never was ok.
   bool was_ok = false;

@@ -40,6 +40,12 @@ tl::expected<ipc::Runtime, ExitCode> join_bus(const std::string& name, const Lif
   return tl::make_unexpected(exit_code_of(runtime.error()));
 }
 
+HostMemory ready_payloads(const ipc::Runtime& runtime) {
+  if (const auto faulted = runtime.prefault(); !faulted) spdlog::warn("{}", faulted.error().message);
+  const auto payloads = runtime.payload_segment();
+  return payloads ? HostMemory{payloads->base, payloads->bytes} : HostMemory{};
+}
+
 void BrokerWatch::check() {
   const auto now = std::chrono::steady_clock::now();
   if (now < next_) return;

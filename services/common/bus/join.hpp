@@ -6,6 +6,7 @@
 
 #include <tl/expected.hpp>
 
+#include "core/open_backend.hpp"
 #include "ipc/error.hpp"
 #include "ipc/runtime.hpp"
 #include "services/common/exit_code.hpp"
@@ -20,6 +21,11 @@ ExitCode exit_code_of(const ipc::Error& error);
 /// is logged; then the code to exit with, `ok` for a stop.
 tl::expected<ipc::Runtime, ExitCode> join_bus(const std::string& name, const Lifecycle& lifecycle,
                                               std::chrono::milliseconds patience = std::chrono::seconds(10));
+
+/// Maps every page of the bus's payloads now, so that none faults later, and says where they lie, for a back
+/// end to reach them. What goes wrong is a warning; the memory is then faulted in bit by bit, or unknown
+/// (empty).
+HostMemory ready_payloads(const ipc::Runtime& runtime);
 
 /// Asks ten times a second at most whether the broker is still there. If not, ends the process with 75 and
 /// without destructors, which can hang: the supervisor starts it anew.

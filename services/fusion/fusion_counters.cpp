@@ -1,0 +1,45 @@
+#include "services/fusion/fusion_counters.hpp"
+
+namespace gvom::fusion {
+
+namespace {
+
+void record_ms(double duration_ms, services::StageHistogram& stage) {
+  stage.record_ns(static_cast<std::int64_t>(duration_ms * 1e6));
+}
+
+}  // namespace
+
+FusionCounters::FusionCounters(services::HealthReport& health)
+    : maps_in(health.counter("maps_in")),
+      maps_fused(health.counter("maps_fused")),
+      maps_lost(health.counter("maps_lost")),
+      drop_map_too_old(health.counter("drop_map_too_old")),
+      drop_map_duplicate(health.counter("drop_map_duplicate")),
+      drop_map_wrong_grid(health.counter("drop_map_wrong_grid")),
+      drop_map_old_epoch(health.counter("drop_map_old_epoch")),
+      drop_map_refused(health.counter("drop_map_refused")),
+      drop_map_backend_failed(health.counter("drop_map_backend_failed")),
+      layers_out(health.counter("layers_out")),
+      drop_layers_no_chunk(health.counter("drop_layers_no_chunk")),
+      voxel_maps_out(health.counter("voxel_maps_out")),
+      drop_voxels_no_chunk(health.counter("drop_voxels_no_chunk")),
+      epochs(health.counter("epochs")),
+      fuse(health.stage("fuse")),
+      make_layers(health.stage("make_layers")),
+      received_to_layers(health.stage("received_to_layers")) {}
+
+DeviceStages::DeviceStages(services::HealthReport& health)
+    : upload(health.stage("device_upload")),
+      fuse(health.stage("device_fuse")),
+      layers(health.stage("device_layers")),
+      download(health.stage("device_download")) {}
+
+void DeviceStages::record(const DeviceCosts& costs) {
+  record_ms(costs.upload_ms, upload);
+  record_ms(costs.fuse_ms, fuse);
+  record_ms(costs.layers_ms, layers);
+  record_ms(costs.download_ms, download);
+}
+
+}  // namespace gvom::fusion
