@@ -105,11 +105,11 @@ void* Device::allocate_pinned(std::size_t bytes) {
 
 DeviceExpected<void> Device::pin(const HostMemory& memory) {
   constexpr unsigned kFlags = cudaHostRegisterPortable | cudaHostRegisterMapped;
+  if (!state_->good()) return tl::make_unexpected(failure());
   const cudaError_t error = cudaHostRegister(memory.base, memory.bytes, kFlags);
-  if (error != cudaSuccess) {
-    cudaGetLastError();  // refused, not broken
-    return tl::make_unexpected(DeviceError{words("cudaHostRegister", error)});
-  }
+  if (error != cudaSuccess) cudaGetLastError();  // refused, not broken
+  if (error == cudaErrorHostMemoryAlreadyRegistered) return {};  // by another device object of this process
+  if (error != cudaSuccess) return tl::make_unexpected(DeviceError{words("cudaHostRegister", error)});
   state_->pinned_ranges.push_back(memory.base);
   return {};
 }
