@@ -33,8 +33,10 @@ struct Device::State {
   std::uint64_t launches = 0;
   std::string failure;
 
-  // Keeps the first error. True if there is none.
+  // Keeps the first error, and takes it from the runtime, which would tell it again to whoever asks next.
+  // True if there is none.
   bool check(const char* call, cudaError_t error) {
+    if (error != cudaSuccess) cudaGetLastError();
     if (error != cudaSuccess && failure.empty()) failure = words(call, error);
     return failure.empty();
   }
@@ -107,7 +109,7 @@ DeviceExpected<void> Device::pin(const HostMemory& memory) {
   constexpr unsigned kFlags = cudaHostRegisterPortable | cudaHostRegisterMapped;
   if (!state_->good()) return tl::make_unexpected(failure());
   const cudaError_t error = cudaHostRegister(memory.base, memory.bytes, kFlags);
-  if (error != cudaSuccess) cudaGetLastError();  // refused, not broken
+  if (error != cudaSuccess) cudaGetLastError();                  // refused, not broken
   if (error == cudaErrorHostMemoryAlreadyRegistered) return {};  // by another device object of this process
   if (error != cudaSuccess) return tl::make_unexpected(DeviceError{words("cudaHostRegister", error)});
   state_->pinned_ranges.push_back(memory.base);

@@ -34,7 +34,18 @@ struct Recording {
 tl::expected<Recording, std::string> read_recording(const std::string& folder, const std::string& odometry,
                                                     double sensor_height_m);
 
-/// A street that a 64-beam lidar drives along: ground, walls, parked cars and poles.
-Recording make_street();
+/// A lidar by its beams, which are evenly spread in elevation.
+struct StreetLidar {
+  const char* name;
+  int beams;
+  int azimuths;  ///< Shots of each beam in a turn.
+  double lowest_rad;
+  double highest_rad;
+};
+inline constexpr StreetLidar kStreetLidars[] = {{"hdl-64", 64, 2048, -0.43, 0.035},
+                                                {"os1-128", 128, 1024, -0.393, 0.393}};
+
+/// A street that a lidar drives along: ground, walls, parked cars and poles.
+Recording make_street(const StreetLidar& lidar);
 
 }  // namespace gvom::bench

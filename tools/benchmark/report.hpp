@@ -1,13 +1,26 @@
-// The one table of a run.
+// What a run says: tables for people, JSON for programs.
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "tools/benchmark/recording.hpp"
 #include "tools/benchmark/samples.hpp"
 
 namespace gvom::bench {
+
+/// Where and on what was measured.
+struct Setting {
+  std::string command;
+  std::string machine;
+  std::string recording;
+  std::size_t sweeps;
+  double returns_per_sweep;
+};
+
+Setting setting_of(const Recording& recording, const std::string& command);
 
 struct Row {
   std::string name;
@@ -18,11 +31,9 @@ struct Row {
   std::string compared_with;
 };
 
+/// The one table of a run on the CPU alone.
 struct Report {
-  std::string machine;
-  std::string recording;
-  std::size_t sweeps = 0;
-  double returns_per_sweep = 0;
+  Setting setting;
   double passes_per_sweep = 0;
   double ns_per_pass = 0;  ///< Of counting and writing.
   std::vector<Row> rows;
@@ -35,6 +46,9 @@ struct Report {
 };
 
 std::string table(const Report& report);
-std::string to_json(const Report& report);
+nlohmann::ordered_json to_json(const Report& report);
+
+/// The JSON of any run starts with these.
+nlohmann::ordered_json to_json(const Setting& setting);
 
 }  // namespace gvom::bench

@@ -7,11 +7,7 @@ namespace gvom::bench {
 
 namespace {
 
-constexpr int kBeams = 64;
-constexpr int kAzimuths = 2048;
 constexpr int kSweeps = 10;
-constexpr double kLowestBeam_rad = -0.43;
-constexpr double kHighestBeam_rad = 0.035;
 constexpr double kSensorHeight_m = 1.73;
 constexpr double kStep_m = 0.6;
 constexpr double kPi = 3.14159265358979323846;
@@ -42,13 +38,14 @@ double distance_to(const Box& box, const Eigen::Vector3d& from, const Eigen::Vec
   return enter <= leave ? enter : std::numeric_limits<double>::infinity();
 }
 
-Sweep sweep_from(const Eigen::Vector3d& sensor_m, const std::vector<Box>& boxes) {
+Sweep sweep_from(const Eigen::Vector3d& sensor_m, const StreetLidar& lidar, const std::vector<Box>& boxes) {
   Sweep sweep;
   sweep.times_ns = {0};
-  for (int azimuth = 0; azimuth < kAzimuths; ++azimuth)
-    for (int beam = 0; beam < kBeams; ++beam) {
-      const double turn_rad = 2 * kPi * (azimuth + 0.5) / kAzimuths;
-      const double lift_rad = kLowestBeam_rad + (kHighestBeam_rad - kLowestBeam_rad) * beam / (kBeams - 1);
+  for (int azimuth = 0; azimuth < lidar.azimuths; ++azimuth)
+    for (int beam = 0; beam < lidar.beams; ++beam) {
+      const double turn_rad = 2 * kPi * (azimuth + 0.5) / lidar.azimuths;
+      const double lift_rad =
+          lidar.lowest_rad + (lidar.highest_rad - lidar.lowest_rad) * beam / (lidar.beams - 1);
       const Eigen::Vector3d along(std::cos(turn_rad) * std::cos(lift_rad),
                                   std::sin(turn_rad) * std::cos(lift_rad), std::sin(lift_rad));
       double range_m = std::numeric_limits<double>::infinity();
@@ -62,16 +59,16 @@ Sweep sweep_from(const Eigen::Vector3d& sensor_m, const std::vector<Box>& boxes)
 
 }  // namespace
 
-Recording make_street() {
+Recording make_street(const StreetLidar& lidar) {
   Recording recording;
-  recording.name = "a synthetic street";
+  recording.name = std::string("a synthetic street, ") + lidar.name;
   recording.lidar.T_base_sensor.translation().z() = kSensorHeight_m;
   const std::vector<Box> boxes = street_boxes();
   for (int i = 0; i < kSweeps; ++i) {
     Pose pose;
     pose.translation_m = {kStep_m * i, 0.1, 0.0};
     const Eigen::Vector3d sensor_m = pose.translation_m + Eigen::Vector3d(0, 0, kSensorHeight_m);
-    recording.sweeps.push_back(sweep_from(sensor_m, boxes));
+    recording.sweeps.push_back(sweep_from(sensor_m, lidar, boxes));
     recording.T_odom_base.push_back(pose);
   }
   return recording;

@@ -1,19 +1,9 @@
-#include "core/cpu/voxelizer.hpp"
 #include "core/ray.hpp"
 #include "tools/benchmark/measure.hpp"
 
 namespace gvom::bench {
 
 namespace {
-
-OwnedMap room_for(const BrickMapShape& shape) {
-  OwnedMap map;
-  map.directory.resize(shape.brick_slots);
-  map.lookup.resize(std::size_t{shape.brick_count} * kBrickCells);
-  map.columns.resize(shape.brick_count);
-  map.records.resize(shape.record_count);
-  return map;
-}
 
 // The obvious way: every ray is walked voxel by voxel into a dense array.
 class StraightLoop {
@@ -68,47 +58,31 @@ class StraightLoop {
 };
 
 // Adds up the passes of a map; notes whether each voxel's are those of the straight loop.
-void compare(const BrickMapView& map, const StraightLoop& straight, IngestTimes& times) {
+void compare(const BrickMapView& map, const StraightLoop& straight, StraightTimes& times) {
   for (std::int32_t x = 0; x < map.grid.size[0]; ++x)
     for (std::int32_t y = 0; y < map.grid.size[1]; ++y)
       for (std::int32_t z = 0; z < map.grid.size[2]; ++z) {
         const Int3& o = map.grid.origin;
         const std::uint32_t passes = map.voxel_at({o[0] + x, o[1] + y, o[2] + z}).passes;
         times.passes += passes;
-        times.passes_agree &= passes == straight.passes(x, y, z);
+        times.agree &= passes == straight.passes(x, y, z);
       }
 }
 
 }  // namespace
 
-IngestTimes measure_ingest(const Recording& recording, int repeats) {
-  const MapConfig config;
-  cpu::Voxelizer voxelizer(config, recording.lidar, {}, 262144);
+StraightTimes measure_straight(const MapConfig& config, const Recording& recording,
+                               const std::vector<OwnedMap>& maps, int repeats) {
   StraightLoop straight(grid_around(config, Eigen::Vector3d::Zero()));
-  IngestTimes times;
+  StraightTimes result;
   for (int repeat = 0; repeat < repeats; ++repeat)
     for (std::size_t i = 0; i < recording.sweeps.size(); ++i) {
-      const Sweep& sweep = recording.sweeps[i];
       const Pose& pose = recording.T_odom_base[i];
-      const Grid grid = grid_around(config, pose.translation_m);
-      const std::vector<Pose> poses(sweep.times_ns.size(), pose);
-      BrickMapShape shape;
-      const double count_ms = time_ms([&] { shape = *voxelizer.count(sweep, poses, grid); });
-      if (repeat == 0) times.maps.push_back(room_for(shape));
-      OwnedMap& map = times.maps[i];
-      const BrickMapArrays out{map.directory.data(), map.lookup.data(), map.columns.data(),
-                               map.records.data()};
-      const double write_ms = time_ms([&] { voxelizer.write(out); });
-      map.view = {grid, 0, pose, shape, out.directory, out.lookup, out.columns, out.records};
-      times.count.add(count_ms);
-      times.write.add(write_ms);
-      times.both.add(count_ms + write_ms);
-      if (repeat > 0 && repeat % 10 != 0) continue;
-      straight.clear(grid);
-      times.straight.add(time_ms([&] { straight.count(sweep, recording.lidar, pose); }));
-      if (repeat == 0) compare(map.view, straight, times);
+      straight.clear(grid_around(config, pose.translation_m));
+      result.times.add(time_ms([&] { straight.count(recording.sweeps[i], recording.lidar, pose); }));
+      if (repeat == 0) compare(maps[i].view, straight, result);
     }
-  return times;
+  return result;
 }
 
 }  // namespace gvom::bench

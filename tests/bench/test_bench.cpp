@@ -1,0 +1,88 @@
+// gvom-bench --gpu from end to end, on the serial device.
+#include <sys/wait.h>
+
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/tools/temporary_folder.hpp"
+
+namespace gvom::test {
+namespace {
+
+using Json = nlohmann::json;
+
+/// The exit code; what it says goes to `log`.
+int bench(const std::string& arguments, const std::string& log, const std::string& environment = "") {
+  const std::string command = environment + " '" GVOM_BENCH_SERIAL "' " + arguments + " > '" + log + "' 2>&1";
+  const int status = std::system(command.c_str());
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+std::string contents(const std::string& path) {
+  std::ostringstream all;
+  all << std::ifstream(path).rdbuf();
+  return all.str();
+}
+
+void check_times(const Json& times, int runs) {
+  CHECK(times.at("runs") == runs);
+  CHECK(times.at("p50_ms").get<double>() >= 0);
+  CHECK(times.at("p99_ms").get<double>() >= times.at("p50_ms").get<double>());
+}
+
+TEST_CASE("the GPU is measured beside the CPU") {
+  const TemporaryFolder folder;
+  const std::string log = folder.path() + "/log", json = folder.path() + "/bench.json";
+  const int code = bench("--gpu --quick --repeats 1 --lidar os1-128 --json '" + json + "'", log);
+  INFO(contents(log));
+  REQUIRE(code == 0);
+  const Json run = Json::parse(contents(json));
+  CHECK(run.at("sweeps") == 10);
+  CHECK(run.at("device").get<std::string>().find("serial device") == 0);
+  CHECK(run.at("command").get<std::string>().find("gvom-bench --gpu --quick") == 0);
+  for (const char* rate : {"to_device", "to_host", "within_device"})
+    CHECK(run.at("copy_bytes_per_s").at(rate).get<double>() > 0);
+  for (const char* side : {"cpu", "cuda"})
+    for (const char* step : {"count", "write", "both"})
+      check_times(run.at("voxelizing").at(side).at(step), 10);
+  REQUIRE(run.at("ticks").size() == 1);
+  const Json& tick = run.at("ticks")[0];
+  CHECK(tick.at("grid") == Json{{"size_xy", 64}, {"size_z", 32}});
+  for (const char* step : {"tick", "fuse", "layers"}) check_times(tick.at("cpu").at(step), 10);
+  const Json& cuda = tick.at("cuda");
+  check_times(cuda.at("tick"), 10);
+  CHECK(cuda.at("launches") >= 2);
+  for (const char* stage : {"upload", "fuse", "layers", "download"}) {
+    check_times(cuda.at(stage), 10);
+    CHECK(cuda.at(stage).at("share_of_copy_rate").get<double>() >= 0);
+  }
+  // Of 64 x 64 columns: 43 bytes of layers, 24 of masks and stamp read, 4 more where there is ground.
+  CHECK(cuda.at("download").at("least_bytes") == 4096 * 43);
+  CHECK(cuda.at("layers").at("least_bytes").get<double>() >= 4096 * (43 + 24));
+  CHECK(cuda.at("layers").at("least_bytes").get<double>() <= 4096 * (43 + 24 + 4));
+  CHECK(cuda.at("upload").at("least_bytes").get<double>() > 2 * 4096);
+  // Two maps are read, each about as large as the one that is sent, and 6 KB of a brick twice for 2 KB sent.
+  CHECK(cuda.at("fuse").at("least_bytes") > cuda.at("upload").at("least_bytes"));
+  CHECK(contents(log).find("| 64 x 64 x 32 | 2 |") != std::string::npos);
+}
+
+TEST_CASE("a device that cannot be used is no figure but exit 69 and its words") {
+  const TemporaryFolder folder;
+  const std::string log = folder.path() + "/log";
+  CHECK(bench("--gpu --quick --repeats 1", log, "GVOM_SERIAL_DEVICE_FAIL_AT=100") == 69);
+  CHECK(contents(log) == "gvom-bench: an injected fault of the serial device\n");
+}
+
+TEST_CASE("a wrong command line is exit 64") {
+  const TemporaryFolder folder;
+  const std::string log = folder.path() + "/log";
+  CHECK(bench("--quick", log) == 64);
+  CHECK(bench("--lidar os1-129", log) == 64);
+  CHECK(bench("--lidar os1-128 --sweeps /", log) == 64);
+}
+
+}  // namespace
+}  // namespace gvom::test

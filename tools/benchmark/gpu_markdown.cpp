@@ -1,0 +1,114 @@
+#include "tools/benchmark/gpu_report.hpp"
+#include "tools/benchmark/gpu_stages.hpp"
+#include "tools/benchmark/text.hpp"
+
+namespace gvom::bench {
+
+namespace {
+
+std::string times(const Samples& samples) {
+  return text("%.3f / %.3f", samples.quantile_ms(0.5), samples.quantile_ms(0.99));
+}
+
+double ratio(const Samples& samples, const Samples& other) {
+  return samples.quantile_ms(0.5) / other.quantile_ms(0.5);
+}
+
+// Null where the row did not fit.
+const DeviceTimes* device_of(const TickRow& row) {
+  return row.cuda ? &*row.cuda->device : nullptr;
+}
+
+const std::string& device_name(const GpuComparison& comparison) {
+  return comparison.cuda_voxelizing.details;
+}
+
+std::string heading(const Setting& setting, const GpuComparison& comparison) {
+  const cuda::CopyRates& rates = comparison.rates;
+  return text("- GPU: %s\n", device_name(comparison).c_str()) +
+         text("- copies: %.1f GB/s from pinned memory, %.1f GB/s to it, %.0f GB/s within (read plus write)\n",
+              rates.to_device * 1e-9, rates.to_host * 1e-9, rates.within_device * 1e-9) +
+         text("- CPU: %s; one thread\n", setting.machine.c_str()) +
+         text("- input: %s; %zu sweeps, each on average %.0f returns\n", setting.recording.c_str(),
+              setting.sweeps, setting.returns_per_sweep) +
+         text("- command: `%s`\n\n", setting.command.c_str());
+}
+
+std::string place(const TickRow& row) {
+  return text("| %s | %d |", name_of(row.map).c_str(), row.window);
+}
+
+std::string tick_table(const GpuComparison& comparison) {
+  std::string all =
+      "A tick, ms, p50 / p99: a new map in pinned memory to layers in pinned memory. Whole ticks by the "
+      "host's clock, the GPU's stages by its own; both back ends' layers were the same bytes.\n\n"
+      "| grid | window | GPU tick | upload | fuse | layers | download | launches "
+      "| CPU tick | fuse | layers | CPU / GPU |\n"
+      "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
+  for (const TickRow& row : comparison.rows) {
+    const DeviceTimes* device = device_of(row);
+    all += place(row);
+    if (device == nullptr)
+      all += text(" does not fit: %s | | | | | |", row.cuda.error().c_str());
+    else
+      all += text(" %s | %s | %s | %s | %s | %llu |", times(row.cuda->both).c_str(),
+                  times(device->upload).c_str(), times(device->fuse).c_str(), times(device->layers).c_str(),
+                  times(device->download).c_str(), static_cast<unsigned long long>(device->launches));
+    all += text(" %s | %s | %s |", times(row.cpu.both).c_str(), times(row.cpu.fuse).c_str(),
+                times(row.cpu.layers).c_str());
+    all += device == nullptr ? " |\n" : text(" %.1f |\n", ratio(row.cpu.both, row.cuda->both));
+  }
+  return all + "\n";
+}
+
+std::string bytes_table(const GpuComparison& comparison) {
+  std::string all = text(
+      "The fewest bytes that a stage must move, and the share of the copy rate (upload and download: from "
+      "and to pinned memory; fuse and layers: within the device) that its median reaches with them; over "
+      "100 %% is the doing of caches.\n\n%s\n"
+      "| grid | window | upload | fuse | layers | download |\n| --- | --- | --- | --- | --- | --- |\n",
+      kLeastBytesWords);
+  for (const TickRow& row : comparison.rows) {
+    const DeviceTimes* device = device_of(row);
+    if (device == nullptr) continue;
+    all += place(row);
+    for (const Stage& stage : stages_of(*device, comparison.rates))
+      all += text(" %.2f MB, %.0f %% |", stage.least_bytes * 1e-6, 100 * stage.share());
+    all += "\n";
+  }
+  return all + "\n";
+}
+
+std::string voxelizing_table(const GpuComparison& comparison) {
+  const VoxelizingTimes& cpu = comparison.cpu_voxelizing;
+  const VoxelizingTimes& cuda = comparison.cuda_voxelizing;
+  std::string all = text(
+      "A sweep to its buffer map, %s, ms, p50 / p99, by the host's clock; the maps were the same bytes.\n\n"
+      "| | count | write | both |\n| --- | --- | --- | --- |\n",
+      name_of(comparison.voxelized).c_str());
+  for (const auto& [name, side] : {std::pair("GPU", &cuda), std::pair("CPU", &cpu)})
+    all += text("| %s | %s | %s | %s |\n", name, times(side->count).c_str(), times(side->write).c_str(),
+                times(side->both).c_str());
+  return all + text("| CPU / GPU | %.1f | %.1f | %.1f |\n", ratio(cpu.count, cuda.count),
+                    ratio(cpu.write, cuda.write), ratio(cpu.both, cuda.both));
+}
+
+// Rows whose device says something else than the heading.
+std::string notes(const GpuComparison& comparison) {
+  std::string all;
+  for (const TickRow& row : comparison.rows) {
+    const DeviceTimes* device = device_of(row);
+    if (device != nullptr && device->details != device_name(comparison))
+      all += text("%s, window %d: %s\n\n", name_of(row.map).c_str(), row.window, device->details.c_str());
+  }
+  return all;
+}
+
+}  // namespace
+
+std::string markdown(const Setting& setting, const GpuComparison& comparison) {
+  return heading(setting, comparison) + tick_table(comparison) + notes(comparison) + bytes_table(comparison) +
+         voxelizing_table(comparison);
+}
+
+}  // namespace gvom::bench

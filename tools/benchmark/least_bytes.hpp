@@ -1,0 +1,36 @@
+// The fewest bytes that a tick must move, whoever computes it: what its time is held against.
+#pragma once
+
+#include "core/layers.hpp"
+#include "core/window.hpp"
+
+namespace gvom::bench {
+
+/// Of each stage, bytes.
+struct LeastBytes {
+  double upload = 0;
+  double fuse = 0;
+  double layers = 0;
+  double download = 0;
+
+  LeastBytes operator+(const LeastBytes& other) const {
+    return {upload + other.upload, fuse + other.fuse, layers + other.layers, download + other.download};
+  }
+  LeastBytes operator/(double n) const { return {upload / n, fuse / n, layers / n, download / n}; }
+};
+
+/// How `least_bytes` counts, for people.
+inline constexpr const char* kLeastBytesWords =
+    "- upload: the map.\n"
+    "- fuse: of the map that came and those that left, the directory is read, and the lookup values, "
+    "observed columns and records of their bricks; of the bricks that they touch, 12 bytes a voxel (hits, "
+    "passes, minimum) are read and written, 2 bits a voxel (occupied, free) written; of the columns through "
+    "these, the last-seen stamp is read and written. Bricks that enter as the grid moves are left out.\n"
+    "- layers: of each column, both masks and the stamp are read, and the minimum of its ground; each layer "
+    "is written once.\n"
+    "- download: the layers.\n";
+
+/// Of the tick whose map `window` took last, the newest, and whose layers are `layers`.
+LeastBytes least_bytes(const Window& window, const LayerArrays& layers);
+
+}  // namespace gvom::bench
