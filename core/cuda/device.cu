@@ -1,6 +1,7 @@
 #include <cuda_runtime.h>
 
 #include <array>
+#include <cstdlib>
 #include <utility>
 #include <vector>
 
@@ -49,6 +50,7 @@ struct Device::State {
 #define GVOM_CUDA(call) (state_->good() && state_->check(#call, call))
 
 void Device::State::start() {
+  setenv("CUDA_MODULE_LOADING", "EAGER", 0);  // kernels are loaded now, not at the first tick that needs them
   int count = 0;
   if (!check("looking for a CUDA device", cudaGetDeviceCount(&count))) return;
   if (!check("taking the first CUDA device", cudaSetDevice(0))) return;
@@ -107,11 +109,14 @@ void* Device::allocate_pinned(std::size_t bytes) {
 
 DeviceExpected<void> Device::pin(const HostMemory& memory) {
   constexpr unsigned kFlags = cudaHostRegisterPortable | cudaHostRegisterMapped;
-  if (!state_->good()) return tl::make_unexpected(failure());
+  cudaPointerAttributes attributes{};
+  if (!GVOM_CUDA(cudaPointerGetAttributes(&attributes, memory.base))) return tl::make_unexpected(failure());
+  if (attributes.type == cudaMemoryTypeHost) return {};  // by another device object of this process
   const cudaError_t error = cudaHostRegister(memory.base, memory.bytes, kFlags);
-  if (error != cudaSuccess) cudaGetLastError();                  // refused, not broken
-  if (error == cudaErrorHostMemoryAlreadyRegistered) return {};  // by another device object of this process
-  if (error != cudaSuccess) return tl::make_unexpected(DeviceError{words("cudaHostRegister", error)});
+  if (error != cudaSuccess) {
+    cudaGetLastError();  // refused, not broken
+    return tl::make_unexpected(DeviceError{words("cudaHostRegister", error)});
+  }
   state_->pinned_ranges.push_back(memory.base);
   return {};
 }
@@ -119,8 +124,12 @@ DeviceExpected<void> Device::pin(const HostMemory& memory) {
 const void* Device::in_place(const void* host) const {
   if (!state_->info.shares_host_memory) return nullptr;
   void* device = nullptr;
-  if (cudaHostGetDevicePointer(&device, const_cast<void*>(host), 0) == cudaSuccess) return device;
-  cudaGetLastError();  // not pinned
+  const cudaError_t error = cudaHostGetDevicePointer(&device, const_cast<void*>(host), 0);
+  if (error == cudaSuccess) return device;
+  if (error == cudaErrorInvalidValue)
+    cudaGetLastError();  // not pinned
+  else
+    state_->check("cudaHostGetDevicePointer", error);
   return nullptr;
 }
 

@@ -34,7 +34,8 @@ class Device {
 
   /// Memory of the device, zero at first, 256-byte aligned; it goes with this object. Null after a failure.
   void* allocate(std::size_t bytes);
-  /// Memory of the host that the device copies from and to without help; likewise.
+  /// Memory of the host that the device copies from and to without help; it goes with this object too, and
+  /// holds anything at first.
   void* allocate_pinned(std::size_t bytes);
   template <class T>
   T* array(std::size_t count) {
@@ -45,13 +46,14 @@ class Device {
     return static_cast<T*>(allocate_pinned(count * sizeof(T)));
   }
 
-  /// Pins memory of the host, so that copies out of it and into it are the device's own. Error: the system
-  /// refuses; copies go through the driver's staging memory then. No failure of the device.
+  /// Pins memory of the host for as long as this object lives, so that copies out of it and into it are the
+  /// device's own. Error: the system refuses; copies go through the driver's staging memory then. No failure
+  /// of the device.
   DeviceExpected<void> pin(const HostMemory& memory);
   /// Where the device reads pinned memory in place; null if it does not share the host's memory.
   [[nodiscard]] const void* in_place(const void* host) const;
 
-  /// Work, in order. Host memory must stay as it is until `wait`, unless it is not pinned.
+  /// Work, in order. Host memory must stay as it is until `wait`.
   void upload(void* to, const void* from, std::size_t bytes);
   void download(void* to, const void* from, std::size_t bytes);
   void copy(void* to, const void* from, std::size_t bytes);  ///< Within the device.

@@ -75,16 +75,22 @@ class CellColumn {
     });
   }
 
-  /// Looks minima that left up in the window.
+  /// Looks minima that left up in the window, until all maps that hit a voxel were seen or none can be lower.
   GVOM_HD void restore_minima(const FuseTick& tick, const Int3& brick, std::int32_t column) {
-    if (stale_ == 0) return;
-    for (int z = 0; z < kBrickEdge; ++z)
+    Eight<std::uint32_t> unseen_hits = hits_;
+    const Eight<float> least_m = min_m_;
+    for (int z = 0; z < kBrickEdge; ++z) {
+      if (hits_.at[z] == 0) stale_ &= ~(1u << z);
       if (stale_ >> z & 1) min_m_.at[z] = kNoHeight_m;
-    for (std::int32_t i = 0; i < tick.window_maps; ++i) {
+    }
+    for (std::int32_t i = 0; i < tick.window_maps && stale_ != 0; ++i) {
       const DeviceMap& map = tick.map(i);
-      for_each_cell(map, brick, column, [this, &map](int z, std::int32_t lookup) {
-        if (lookup >= 0 && (stale_ >> z & 1))
-          min_m_.at[z] = lower(min_m_.at[z], map.records[lookup].min_height_m);
+      for_each_cell(map, brick, column, [&](int z, std::int32_t lookup) {
+        if (lookup < 0 || (stale_ >> z & 1) == 0) return;
+        const VoxelRecord& record = map.records[lookup];
+        min_m_.at[z] = lower(min_m_.at[z], record.min_height_m);
+        unseen_hits.at[z] -= record.hits;
+        if (unseen_hits.at[z] == 0 || min_m_.at[z] == least_m.at[z]) stale_ &= ~(1u << z);
       });
     }
   }

@@ -79,8 +79,11 @@ void FusedMap::update(const Window& window, std::uint32_t added_place, const Map
 
 // Staged memory is used again only when the device has read it.
 std::byte* FusedMap::next_staged() {
-  if (turn_ > 0 && turn_ % kStaged == 0) static_cast<void>(device_.wait());
-  return staged_ + (turn_++ % kStaged) * tick_bytes_;
+  if (staged_ticks_ == kStaged) {
+    static_cast<void>(device_.wait());
+    settled();
+  }
+  return staged_ + staged_ticks_++ * tick_bytes_;
 }
 
 std::size_t FusedMap::write_tick(const Window& window, std::uint32_t added_place, const MapRing& ring,

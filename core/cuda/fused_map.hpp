@@ -20,6 +20,8 @@ class FusedMap {
   /// `ring`.
   void update(const Window& window, std::uint32_t added_place, const MapRing& ring);
   void clear();
+  /// The device has done all that was asked of it so far.
+  void settled() { staged_ticks_ = 0; }
 
   [[nodiscard]] const DenseBricks& bricks() const { return bricks_; }
   /// Pointers of the device.
@@ -46,7 +48,7 @@ class FusedMap {
   std::byte* tick_;         // a FuseTick and its maps
   std::size_t tick_bytes_;  // room for it
   std::byte* staged_;       // pinned, kStaged times
-  std::size_t turn_ = 0;
+  std::size_t staged_ticks_ = 0;
   std::uint32_t* listed_;
   std::uint32_t* listed_count_;
   Device::Graph update_;

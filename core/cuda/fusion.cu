@@ -37,6 +37,7 @@ Fusion::Fusion(std::unique_ptr<Device> device, const FusionSetup& setup, bool in
 // From here on the device reads no memory of the host.
 DeviceExpected<void> Fusion::settle() {
   unsettled_.clear();
+  map_.settled();
   return device_->wait();
 }
 

@@ -1,5 +1,7 @@
 #include "core/cuda/map_ring.hpp"
 
+#include <algorithm>
+
 namespace gvom::cuda {
 
 namespace {
@@ -23,7 +25,8 @@ struct Layout {
 
 std::size_t most_bytes_of(const MapConfig& map, std::size_t most_records) {
   const std::uint32_t slots = grid_around(map, Eigen::Vector3d::Zero()).brick_slots();
-  return Layout({slots, slots, static_cast<std::uint32_t>(most_records)}).bytes;
+  const std::size_t records = std::min(most_records, std::size_t{slots} * kBrickCells);
+  return Layout({slots, slots, static_cast<std::uint32_t>(records)}).bytes;
 }
 
 }  // namespace
@@ -51,11 +54,16 @@ std::uint32_t MapRing::take() {
 void MapRing::send(const BrickMapView& map, std::uint32_t place) {
   bytes_sent_ = 0;
   if (in_place_) {
-    const auto seen = [this](const auto* host) {
-      return static_cast<decltype(host)>(device_.in_place(host));
+    const auto seen = [this](const auto* host, std::uint32_t count) {
+      return static_cast<decltype(host)>(count > 0 ? device_.in_place(host) : nullptr);
     };
-    maps_[place] = {map.grid,         map.stamp_ns,      seen(map.directory),
-                    seen(map.lookup), seen(map.columns), seen(map.records)};
+    const BrickMapShape& shape = map.shape;
+    maps_[place] = {map.grid,
+                    map.stamp_ns,
+                    seen(map.directory, shape.brick_slots),
+                    seen(map.lookup, shape.brick_count),
+                    seen(map.columns, shape.brick_count),
+                    seen(map.records, shape.record_count)};
     if (maps_[place].directory == nullptr) device_.fail("a map lies outside of the pinned memory");
     return;
   }

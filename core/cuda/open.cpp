@@ -19,13 +19,11 @@ std::string describe(const DeviceInfo& info) {
          dotted(info.driver_version / 1000, info.driver_version % 1000 / 10) + ")";
 }
 
-// Pins the memory that maps come in, and says how the device reaches it.
+// Pins the memory of the bus, and says how its maps travel.
 std::string reach(Device& device, const HostMemory& memory) {
-  if (memory.bytes == 0) return "copies from pageable memory";
-  if (const auto pinned = device.pin(memory); !pinned)
-    return "staged copies, the shared memory cannot be pinned: " + pinned.error().what;
-  return device.info().shares_host_memory ? "shared memory read in place"
-                                          : "copies by DMA from shared memory";
+  if (memory.bytes == 0) return "maps by staged copies";
+  if (const auto pinned = device.pin(memory); !pinned) return "maps by staged copies: " + pinned.error().what;
+  return "maps by DMA";
 }
 
 bool reads_in_place(const Device& device, const HostMemory& memory) {
@@ -38,8 +36,11 @@ DeviceExpected<OpenBackend<FusionBackend>> open_fusion(const FusionSetup& setup)
   auto device = Device::open();
   if (!device) return tl::make_unexpected(device.error());
   Device& opened = **device;
-  const std::string details = describe(opened.info()) + ": " + reach(opened, setup.shared);
-  auto backend = std::make_unique<Fusion>(std::move(*device), setup, reads_in_place(opened, setup.shared));
+  std::string details = reach(opened, setup.shared);
+  const bool in_place = reads_in_place(opened, setup.shared);
+  if (in_place) details = "maps in place";
+  details += "; " + describe(opened.info());
+  auto backend = std::make_unique<Fusion>(std::move(*device), setup, in_place);
   if (const auto ready = opened.wait(); !ready) return tl::make_unexpected(ready.error());
   return OpenBackend<FusionBackend>{std::move(backend), "cuda", details};
 }
@@ -48,7 +49,7 @@ DeviceExpected<OpenBackend<VoxelizerBackend>> open_voxelizer(const VoxelizerSetu
   auto device = Device::open();
   if (!device) return tl::make_unexpected(device.error());
   Device& opened = **device;
-  const std::string details = describe(opened.info()) + ": " + reach(opened, setup.shared);
+  const std::string details = reach(opened, setup.shared) + "; " + describe(opened.info());
   auto backend = std::make_unique<Voxelizer>(std::move(*device), setup);
   if (const auto ready = opened.wait(); !ready) return tl::make_unexpected(ready.error());
   return OpenBackend<VoxelizerBackend>{std::move(backend), "cuda", details};

@@ -29,6 +29,7 @@ Voxelizer::Voxelizer(std::unique_ptr<Device> device, const VoxelizerSetup& setup
       verdicts_here_(device_->pinned_array<std::uint32_t>(kVerdicts)),
       returns_(device_->array<Return>(most_returns_)),
       writer_(*device_, setup.map, most_returns_) {
+  make_room_for_poses(kUsualPoses);
   for_each(*device_, static_cast<std::int32_t>(slots_ * kBrickCells),
            Fill<float>{bricks_.min_height_m, kNoHeight_m});
 }
@@ -37,6 +38,12 @@ Voxelizer::Voxelizer(std::unique_ptr<Device> device, const VoxelizerSetup& setup
 void Voxelizer::forget() {
   for_each(*device_, static_cast<std::int32_t>(slots_) * kColumns, ClearTouched{bricks_, touched_});
   device_->clear(touched_, slots_);
+}
+
+void Voxelizer::make_room_for_poses(std::size_t count) {
+  most_poses_ = count;
+  poses_ = device_->array<SensorPose>(count);
+  staged_poses_ = device_->pinned_array<SensorPose>(count);
 }
 
 DeviceExpected<BrickMapShape> Voxelizer::count(const Sweep& sweep, const std::vector<Pose>& T_odom_base,
@@ -59,11 +66,8 @@ DeviceExpected<BrickMapShape> Voxelizer::count(const Sweep& sweep, const std::ve
 }
 
 void Voxelizer::send_poses(const std::vector<Pose>& T_odom_base, const Grid& grid) {
-  if (T_odom_base.size() > most_poses_) {  // rare: more times than any sweep before
-    most_poses_ = std::max({kUsualPoses, 2 * most_poses_, T_odom_base.size()});
-    poses_ = device_->array<SensorPose>(most_poses_);
-    staged_poses_ = device_->pinned_array<SensorPose>(most_poses_);
-  }
+  if (T_odom_base.size() > most_poses_)  // rare: more times than any sweep before
+    make_room_for_poses(std::max(2 * most_poses_, T_odom_base.size()));
   if (device_->failed()) return;
   for (std::size_t i = 0; i < T_odom_base.size(); ++i) {
     SensorPose& pose = staged_poses_[i];

@@ -24,6 +24,7 @@ class Voxelizer : public VoxelizerBackend {
 
  private:
   void forget();
+  void make_room_for_poses(std::size_t count);
   void send_poses(const std::vector<Pose>& T_odom_base, const Grid& grid);
   void cast(const Sweep& sweep, const Grid& grid);
 

@@ -41,13 +41,15 @@ TEST_CASE("CUDA: where memory cannot be pinned copies are staged, and the detail
   CHECK(opened->details.find("told to refuse") != std::string::npos);
 }
 
-TEST_CASE("CUDA: a steady tick takes no memory and always the same kernels") {
+TEST_CASE("CUDA: a steady tick takes no memory, always the same kernels, and waits once") {
   const auto drive = Drive::open(Backend::cuda).value();
   for (int i = 0; i < 20; ++i) REQUIRE(drive->step());
   const std::uint64_t before = serial::allocations();
   for (int i = 0; i < 200; ++i) {
+    const std::uint64_t waits = serial::waits();
     REQUIRE(drive->step());
     REQUIRE(drive->costs()->launches == 7);
+    REQUIRE(serial::waits() == waits + 3);  // two of them are the voxelizer's: its map's size, and the map
   }
   CHECK(serial::allocations() == before);
 }

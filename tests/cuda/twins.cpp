@@ -22,7 +22,7 @@ constexpr std::size_t kSegmentBytes = std::size_t{256} << 20;
 
 template <class T>
 bool same_bytes(const T* a, const T* b, std::size_t count) {
-  return std::memcmp(a, b, count * sizeof(T)) == 0;
+  return count == 0 || std::memcmp(a, b, count * sizeof(T)) == 0;
 }
 
 bool same_map(const BrickMapView& a, const BrickMapView& b) {

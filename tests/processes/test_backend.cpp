@@ -86,7 +86,7 @@ TEST_CASE("Health says which back end runs, on what, and how it reaches the memo
   graph.start_readers();
   for (const char* process : {"gvom-fusion", "gvom-ingest-front"}) {
     check_says(observer, process, "cuda: serial device on the host");
-    CHECK_THAT(observer.backend(process), Contains("copies by DMA from shared memory"));
+    CHECK_THAT(observer.backend(process), Contains("maps by DMA"));
   }
   CHECK_THAT(graph.fusion().output(), Contains("fusing 1 lidars on cuda: serial device on the host"));
   graph.stop();

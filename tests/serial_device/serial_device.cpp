@@ -29,6 +29,7 @@ bool shares_host_memory = false;
 bool refuses_to_pin = false;
 std::uint64_t failing_operation = fail_at_from_environment();
 std::uint64_t allocation_count = 0;
+std::uint64_t wait_count = 0;
 
 using Operation = std::function<void()>;
 
@@ -65,6 +66,10 @@ void fail_at(std::uint64_t operation) {
 
 std::uint64_t allocations() {
   return allocation_count;
+}
+
+std::uint64_t waits() {
+  return wait_count;
 }
 
 }  // namespace serial
@@ -180,6 +185,7 @@ double Device::ms_between(int earlier, int later) const {
 }
 
 DeviceExpected<void> Device::wait() {
+  ++wait_count;
   for (const Operation& operation : std::exchange(state_->pending, {})) state_->run(operation);
   if (failed()) return tl::make_unexpected(failure());
   return {};

@@ -15,5 +15,7 @@ void refuse_to_pin(bool refuses);
 void fail_at(std::uint64_t operation);
 /// Memory that devices have been asked for so far, times.
 std::uint64_t allocations();
+/// Times that somebody waited for a device.
+std::uint64_t waits();
 
 }  // namespace gvom::cuda::serial
