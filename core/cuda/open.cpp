@@ -36,10 +36,10 @@ DeviceExpected<OpenBackend<FusionBackend>> open_fusion(const FusionSetup& setup)
   auto device = Device::open();
   if (!device) return tl::make_unexpected(device.error());
   Device& opened = **device;
-  std::string details = reach(opened, setup.shared);
+  std::string maps = reach(opened, setup.shared);
   const bool in_place = reads_in_place(opened, setup.shared);
-  if (in_place) details = "maps in place";
-  details += "; " + describe(opened.info());
+  if (in_place) maps = "maps in place";
+  const std::string details = describe(opened.info()) + ": " + maps;
   auto backend = std::make_unique<Fusion>(std::move(*device), setup, in_place);
   if (const auto ready = opened.wait(); !ready) return tl::make_unexpected(ready.error());
   return OpenBackend<FusionBackend>{std::move(backend), "cuda", details};
@@ -49,7 +49,7 @@ DeviceExpected<OpenBackend<VoxelizerBackend>> open_voxelizer(const VoxelizerSetu
   auto device = Device::open();
   if (!device) return tl::make_unexpected(device.error());
   Device& opened = **device;
-  const std::string details = reach(opened, setup.shared) + "; " + describe(opened.info());
+  const std::string details = describe(opened.info()) + ": " + reach(opened, setup.shared);
   auto backend = std::make_unique<Voxelizer>(std::move(*device), setup);
   if (const auto ready = opened.wait(); !ready) return tl::make_unexpected(ready.error());
   return OpenBackend<VoxelizerBackend>{std::move(backend), "cuda", details};
