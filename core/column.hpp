@@ -49,6 +49,17 @@ struct Column {
   std::uint8_t visibility;
 };
 
+/// Puts it into the layers, at index `i` of their arrays.
+GVOM_HD inline void write_column(const Column& column, const LayerArrays& out, std::int32_t i) {
+  out.height[i] = column.height;
+  out.inferred_height[i] = column.inferred_height;
+  out.obstacle_density[i] = column.obstacle_density;
+  out.clearance[i] = column.clearance;
+  out.last_seen[i] = column.last_seen;
+  out.flags[i] = column.flags;
+  out.visibility[i] = column.visibility;
+}
+
 /// Whether ground may be assumed in a column (R9): its centre lies within the vehicle's radius.
 GVOM_HD inline bool under_vehicle(const ColumnParameters& p, std::int32_t x, std::int32_t y) {
   const double dx_m = (p.origin[0] + x + 0.5) * p.resolution_xy_m - p.vehicle_x_m;

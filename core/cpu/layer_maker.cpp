@@ -11,16 +11,7 @@ namespace {
 
 void read_columns(const FusedView& map, const ColumnParameters& p, const LayerArrays& out) {
   for (std::int32_t y = 0, i = 0; y < map.n_xy; ++y)
-    for (std::int32_t x = 0; x < map.n_xy; ++x, ++i) {
-      const Column column = read_column(map, p, x, y);
-      out.height[i] = column.height;
-      out.inferred_height[i] = column.inferred_height;
-      out.obstacle_density[i] = column.obstacle_density;
-      out.clearance[i] = column.clearance;
-      out.last_seen[i] = column.last_seen;
-      out.flags[i] = column.flags;
-      out.visibility[i] = column.visibility;
-    }
+    for (std::int32_t x = 0; x < map.n_xy; ++x, ++i) write_column(read_column(map, p, x, y), out, i);
 }
 
 GVOM_CLONES void add_up_cost(std::int32_t columns, const ColumnParameters& p, const LayerArrays& out) {

@@ -20,15 +20,7 @@ struct ReadColumns {
 
   GVOM_HD void operator()(std::int32_t i) const {
     const FusedView& map = tick->map;
-    const LayerArrays& out = tick->out;
-    const Column column = read_column(map, tick->parameters, i % map.n_xy, i / map.n_xy);
-    out.height[i] = column.height;
-    out.inferred_height[i] = column.inferred_height;
-    out.obstacle_density[i] = column.obstacle_density;
-    out.clearance[i] = column.clearance;
-    out.last_seen[i] = column.last_seen;
-    out.flags[i] = column.flags;
-    out.visibility[i] = column.visibility;
+    write_column(read_column(map, tick->parameters, i % map.n_xy, i / map.n_xy), tick->out, i);
   }
 };
 
