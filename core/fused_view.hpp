@@ -14,6 +14,12 @@ GVOM_HD inline std::int32_t wrap(std::int32_t value, std::int32_t n) {
   return rest < 0 ? rest + n : rest;
 }
 
+/// The toroidal place of a grid's origin, voxels.
+inline Int3 toroidal_origin(const Grid& grid) {
+  return {wrap(grid.origin[0], grid.size[0]), wrap(grid.origin[1], grid.size[1]),
+          wrap(grid.origin[2], grid.size[2])};
+}
+
 /// No map of the window observed the column.
 inline constexpr std::int64_t kNeverSeen = INT64_MIN;
 
@@ -22,7 +28,7 @@ struct FusedView {
   std::int32_t n_xy;
   std::int32_t n_z;
   std::int32_t words;  ///< 64-bit words of a column's mask.
-  Int3 first;          ///< Toroidal place of the origin: origin modulo size, voxels.
+  Int3 first;          ///< `toroidal_origin` of the grid.
   const std::uint32_t* hits;
   const std::uint32_t* passes;
   const float* min_height_m;

@@ -37,17 +37,9 @@ FusedMap::FusedMap(const MapConfig& map, const WindowConfig& window, int min_hit
 }
 
 FusedView FusedMap::view() const {
-  const Int3& n = grid_.size;
-  return {n[0],
-          n[2],
-          words_,
-          {wrap(grid_.origin[0], n[0]), wrap(grid_.origin[1], n[1]), wrap(grid_.origin[2], n[2])},
-          hits_.data(),
-          passes_.data(),
-          min_height_m_.data(),
-          occupied_.data(),
-          free_.data(),
-          last_seen_ns_.data()};
+  return {
+      grid_.size[0],  grid_.size[2],        words_,           toroidal_origin(grid_), hits_.data(),
+      passes_.data(), min_height_m_.data(), occupied_.data(), free_.data(),           last_seen_ns_.data()};
 }
 
 std::uint32_t FusedMap::slot_of(const Int3& b) const {

@@ -43,17 +43,8 @@ std::size_t FusedMap::columns() const {
 }
 
 FusedView FusedMap::view() const {
-  const Int3& n = grid_.size;
-  return {n[0],
-          n[2],
-          words_,
-          {wrap(grid_.origin[0], n[0]), wrap(grid_.origin[1], n[1]), wrap(grid_.origin[2], n[2])},
-          bricks_.hits,
-          bricks_.passes,
-          bricks_.min_height_m,
-          occupied_,
-          free_,
-          last_seen_ns_};
+  return {grid_.size[0],        grid_.size[2], words_, toroidal_origin(grid_), bricks_.hits, bricks_.passes,
+          bricks_.min_height_m, occupied_,     free_,  last_seen_ns_};
 }
 
 void FusedMap::clear() {
