@@ -8,12 +8,12 @@ namespace {
 
 constexpr double kFarthest_m = 1e7;  // world voxels stay within int32 down to edges of 1 cm
 
-bool is_usable(const Pose& pose) {
+}  // namespace
+
+bool OdometryBuffer::is_usable(const Pose& pose) {
   return pose.translation_m.allFinite() && pose.translation_m.cwiseAbs().maxCoeff() <= kFarthest_m &&
          pose.rotation.coeffs().allFinite() && std::abs(pose.rotation.squaredNorm() - 1.0) < 1e-3;
 }
-
-}  // namespace
 
 Pose interpolate(const Pose& a, const Pose& b, double alpha) {
   return {a.translation_m + alpha * (b.translation_m - a.translation_m), a.rotation.slerp(alpha, b.rotation)};

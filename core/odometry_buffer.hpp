@@ -17,6 +17,9 @@ class OdometryBuffer {
   /// @param capacity poses kept; the oldest goes when a new one needs its place
   explicit OdometryBuffer(std::size_t capacity = 8192);
 
+  /// Whether `add` would take it, its stamp aside.
+  static bool is_usable(const Pose& pose);
+
   /// Refuses poses that are not finite (or over 10,000 km away) and those not newer than the last.
   Add add(const StampedPose& pose);
   void clear() { size_ = 0; }

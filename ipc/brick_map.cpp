@@ -1,5 +1,6 @@
 #include "ipc/brick_map.hpp"
 
+#include <cmath>
 #include <cstring>
 #include <utility>
 #include <vector>
@@ -61,6 +62,17 @@ Expected<void> check_lookup(Span<const std::int32_t> lookup, std::uint32_t recor
     if (value >= 0 && static_cast<std::uint32_t>(value) >= record_count) {
       return tl::unexpected(
           broken("a voxel leads to record " + std::to_string(value) + " of " + std::to_string(record_count)));
+    }
+  }
+  return {};
+}
+
+Expected<void> check_records(Span<const VoxelRecord> records) {
+  constexpr float kHighest_m = 1.1e7F;  // the farthest position, and a lidar's reach from there
+  for (const VoxelRecord& record : records) {
+    if (record.hits == 0 || !(std::abs(record.min_height_m) <= kHighest_m)) {
+      return tl::unexpected(broken("a record has " + std::to_string(record.hits) + " hits, the lowest at " +
+                                   std::to_string(record.min_height_m) + " m"));
     }
   }
   return {};
@@ -142,9 +154,9 @@ Span<const VoxelRecord> BrickMapSample::records() const {
 }
 
 Expected<void> BrickMapSample::validate_deep() const {
-  return check_directory(directory(), header().brick_count).and_then([this] {
-    return check_lookup(lookup(), header().record_count);
-  });
+  return check_directory(directory(), header().brick_count)
+      .and_then([this] { return check_lookup(lookup(), header().record_count); })
+      .and_then([this] { return check_records(records()); });
 }
 
 Expected<BrickMapSubscriber> BrickMapSubscriber::buffer_map(Runtime& runtime, const std::string& lidar) {

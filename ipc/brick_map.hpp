@@ -67,8 +67,8 @@ class BrickMapSample {
   [[nodiscard]] Span<const VoxelRecord> records() const;
 
   /// Nothing if every index in the arrays leads where it may: each brick in the directory exactly once,
-  /// lookup values below record_count. Reads the whole directory and lookup: call it where the publisher is
-  /// not trusted.
+  /// lookup values below record_count; and every record has hits at a height that can be. Reads all of that:
+  /// call it where the publisher is not trusted.
   [[nodiscard]] Expected<void> validate_deep() const;
 
  private:

@@ -64,22 +64,6 @@ std::uint64_t stale_bytes(const std::string& path) {
   return ::stat(path.c_str(), &status) == 0 ? static_cast<std::uint64_t>(status.st_blocks) * 512 : 0;
 }
 
-Expected<void> check_space(const PoolPlan& plan, const std::string& group) {
-  struct statvfs space {};
-  if (::statvfs(kSharedMemory, &space) != 0) {
-    return tl::unexpected(Error{ErrorKind::no_space, std::string(kSharedMemory) + " is not there"});
-  }
-  const std::uint64_t available = std::uint64_t{space.f_bavail} * space.f_frsize +
-                                  stale_bytes(kManagementFile) + stale_bytes(kSharedMemory + ("/" + group));
-  const std::uint64_t needed = shared_memory_bytes(plan);
-  if (needed <= available) return {};
-  return tl::unexpected(Error{ErrorKind::no_space, "the pools need " + std::to_string(needed) + " bytes in " +
-                                                       kSharedMemory + ", " + std::to_string(available) +
-                                                       " are available: enlarge it, or lower map.size_xy, "
-                                                       "window.buffer_size, lidars.*.max_returns or "
-                                                       "ipc.max_planners"});
-}
-
 bool wait_until_it_answers() {
   const auto deadline = std::chrono::steady_clock::now() + kStartTimeout;
   while (!broker_answers()) {
@@ -106,11 +90,29 @@ std::uint64_t shared_memory_bytes(const PoolPlan& plan) {
   return bytes;
 }
 
+Expected<void> check_space(const PoolPlan& plan) {
+  const auto group = group_name();
+  if (!group) return tl::unexpected(group.error());
+  struct statvfs space {};
+  if (::statvfs(kSharedMemory, &space) != 0) {
+    return tl::unexpected(Error{ErrorKind::no_space, std::string(kSharedMemory) + " is not there"});
+  }
+  const std::uint64_t available = std::uint64_t{space.f_bavail} * space.f_frsize +
+                                  stale_bytes(kManagementFile) + stale_bytes(kSharedMemory + ("/" + *group));
+  const std::uint64_t needed = shared_memory_bytes(plan);
+  if (needed <= available) return {};
+  return tl::unexpected(Error{ErrorKind::no_space, "the pools need " + std::to_string(needed) + " bytes in " +
+                                                       kSharedMemory + ", " + std::to_string(available) +
+                                                       " are available: enlarge it, or lower map.size_xy, "
+                                                       "window.buffer_size, lidars.*.max_returns or "
+                                                       "ipc.max_planners"});
+}
+
 Expected<Broker> Broker::start(BrokerOptions options) {
   const auto group = group_name();
   if (!group) return tl::unexpected(group.error());
   if (auto is_free = check_place_is_free(); !is_free) return tl::unexpected(is_free.error());
-  if (auto fits = check_space(options.plan, *group); !fits) return tl::unexpected(fits.error());
+  if (auto fits = check_space(options.plan); !fits) return tl::unexpected(fits.error());
   install_error_guard(options.log);
   Broker broker(std::make_unique<State>(options, *group));
   if (wait_until_it_answers()) return broker;

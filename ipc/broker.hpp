@@ -20,6 +20,10 @@ struct BrokerOptions {
 /// Bytes of shared memory that the broker needs for `plan` in all: payload and bookkeeping.
 std::uint64_t shared_memory_bytes(const PoolPlan& plan);
 
+/// Nothing if /dev/shm has room for them; what a broker before left there counts as room. Errors: no_space
+/// (needed and available bytes named), denied.
+Expected<void> check_space(const PoolPlan& plan);
+
 /// Makes the segments at start and removes them when destroyed. Stop all processes on the bus first: those
 /// that are left abort. Processes are neither monitored nor killed (a stall must not cost a live process its
 /// ports).

@@ -57,7 +57,7 @@ struct VoxelRecord {
 /// with nx_b = size_voxels[0] / 8 and so on. Topic "buffer_map" (one sweep of one lidar) and "voxel_map"
 /// (the fused map: counts summed over the window).
 struct BrickMap {
-  static constexpr std::uint16_t kVersion = 1;
+  static constexpr std::uint16_t kVersion = 2;
   MessageHeader header;
   char lidar[kNameLength];        // empty in a voxel map
   std::int32_t origin_voxels[3];  // world voxel of cell (0, 0, 0), multiples of 8 (R1)
@@ -77,6 +77,9 @@ struct BrickMap {
   std::int64_t mono_received_ns;  // last packet read
   std::int64_t mono_mapped_ns;    // odometry there, mapping began
   std::int64_t mono_published_ns;
+  std::int64_t
+      odometry_jump_ns;  // stamp of the first pose after the odometry's last jump in this epoch, 0: none
+                         // seen. Maps from before it lie wrongly to those after. Not in a voxel map
 };
 
 enum class LayerId : std::uint32_t {
@@ -105,7 +108,9 @@ struct LidarStatus {
   char name[kNameLength];
   std::int64_t newest_stamp_ns;  // 0: none came yet
   std::uint32_t maps_in_window;
-  std::uint32_t missing;  // 1: it has no map in the window, though it is one of the vehicle's lidars
+  std::uint32_t missing;  // 1: one of the vehicle's lidars, but no map of it is in the window, or its newest
+                          // is more than fusion.missing_after_s (0.35 s) older than the newest of all lidars,
+                          // by their stamps. If all fall silent at once none is: then the layers' age says so
   std::uint64_t maps_received;
   std::uint64_t maps_lost;  // gaps in its sequence
 };

@@ -58,11 +58,6 @@ void refuse(InPortState& state, std::uint64_t& counter, const std::string& why) 
   state.refusals.push_back(title(state.topic) + ": message refused: " + why);
 }
 
-std::string mismatch(const char* what, std::uint64_t theirs, std::uint64_t ours) {
-  return std::string(what) + " " + std::to_string(theirs) + ", this reader knows " + std::to_string(ours) +
-         " only";
-}
-
 void count_gap(InPortState& state, std::uint64_t origin, std::uint64_t sequence) {
   for (InPortState::Origin& known : state.origins) {
     if (known.id != origin) continue;
@@ -75,35 +70,31 @@ void count_gap(InPortState& state, std::uint64_t origin, std::uint64_t sequence)
   ++state.counters.publishers;
 }
 
+std::uint64_t& counter_of(InCounters& counters, Refusal::Reason reason) {
+  switch (reason) {
+    case Refusal::Reason::foreign:
+      return counters.refused_foreign;
+    case Refusal::Reason::type:
+      return counters.refused_type;
+    case Refusal::Reason::version:
+      return counters.refused_version;
+    case Refusal::Reason::size:
+      break;
+  }
+  return counters.refused_size;
+}
+
 /// True if the message is what the topic says.
 bool accept(InPortState& state, const void* payload) {
   const auto* chunk = iox::mepoo::ChunkHeader::fromUserPayload(payload);
-  const auto* message = static_cast<const std::byte*>(payload);
-  const auto& header = *static_cast<const MessageHeader*>(payload);
-  InCounters& counters = state.counters;
-  if (chunk->userPayloadSize() < sizeof(MessageHeader) || header.magic != kMagic) {
-    refuse(state, counters.refused_foreign, "it is not from gvom");
-    return false;
+  const auto refusal =
+      check_message(state.topic, static_cast<const std::byte*>(payload), chunk->userPayloadSize());
+  if (!refusal || refusal->reason != Refusal::Reason::foreign) {
+    count_gap(state, static_cast<std::uint64_t>(chunk->originId()),
+              static_cast<const MessageHeader*>(payload)->sequence);
   }
-  count_gap(state, static_cast<std::uint64_t>(chunk->originId()), header.sequence);
-  if (header.type != static_cast<std::uint16_t>(state.topic.type)) {
-    refuse(state, counters.refused_type,
-           mismatch("message type", header.type, static_cast<std::uint16_t>(state.topic.type)));
-    return false;
-  }
-  if (header.version != state.topic.version) {
-    refuse(state, counters.refused_version, mismatch("version", header.version, state.topic.version));
-    return false;
-  }
-  if (header.size < sizeof(MessageHeader) || header.size > chunk->userPayloadSize()) {
-    refuse(state, counters.refused_size, mismatch("size", header.size, chunk->userPayloadSize()));
-    return false;
-  }
-  if (const auto complaint = state.topic.check(message, header.size)) {
-    refuse(state, counters.refused_size, "it " + *complaint);
-    return false;
-  }
-  return true;
+  if (refusal) refuse(state, counter_of(state.counters, refusal->reason), refusal->why);
+  return !refusal;
 }
 
 }  // namespace
@@ -141,7 +132,7 @@ Chunk& Chunk::operator=(Chunk&& other) noexcept {
 }
 
 Chunk::~Chunk() {
-  if (data_ != nullptr) port_->subscriber.release(data_);
+  if (port_ != nullptr && data_ != nullptr) port_->subscriber.release(data_);
 }
 
 OutPort::OutPort(std::shared_ptr<OutPortState> state) : state_(std::move(state)) {}

@@ -35,7 +35,8 @@ class Loan {
   std::byte* data_ = nullptr;
 };
 
-/// A received message, in place in shared memory, read-only. Goes back when this is destroyed.
+/// A received message, in place in shared memory, read-only. Goes back when this is destroyed; without a port
+/// it is a view of memory that somebody else keeps.
 class Chunk {
  public:
   Chunk() = default;
@@ -77,7 +78,8 @@ struct InCounters {
   std::uint64_t refused_foreign = 0;  ///< Not a gvom message: too short, or another magic number.
   std::uint64_t refused_type = 0;
   std::uint64_t refused_version = 0;
-  std::uint64_t refused_size = 0;  ///< Sizes or offsets that contradict each other or the chunk.
+  std::uint64_t refused_size =
+      0;  ///< Sizes or offsets that contradict each other or the chunk; what cannot be.
   std::uint64_t refused_held = 0;  ///< Lost because this reader holds too many chunks already.
   std::uint64_t publishers = 0;    ///< Publishers seen so far: a restarted one is a new one.
 

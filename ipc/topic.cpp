@@ -1,6 +1,8 @@
 #include "ipc/topic.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <string_view>
 
 #include "ipc/layout.hpp"
@@ -9,6 +11,9 @@ namespace gvom::ipc {
 namespace {
 
 constexpr int kMaxGridVoxels = 4096;  // an edge; far beyond any configuration, far below overflow
+constexpr std::int32_t kMaxOriginVoxels = 1 << 30;  // 10,700 km in voxels of 1 cm
+constexpr double kFarthest_m = 1e7;                 // as odometry is used; heights of it fit a float
+constexpr std::int64_t kMaxStamp_ns = 4'000'000'000'000'000'000;  // the year 2096; sums and differences fit
 constexpr char kAll[] = "all";
 
 using Complaint = std::optional<std::string>;
@@ -28,6 +33,11 @@ Complaint too_many(const char* what, std::uint64_t count, std::uint64_t limit) {
   return "claims " + std::to_string(count) + " " + what + ", at most " + std::to_string(limit) + " can be";
 }
 
+std::string mismatch(const char* what, std::uint64_t theirs, std::uint64_t ours) {
+  return std::string(what) + " " + std::to_string(theirs) + ", this reader knows " + std::to_string(ours) +
+         " only";
+}
+
 Complaint first_of(Complaint a, Complaint b) {
   return a ? std::move(a) : std::move(b);
 }
@@ -40,6 +50,26 @@ Complaint bad_grid(const std::int32_t (&size)[3]) {
   if (size[0] == size[1] && is_grid_edge(size[0]) && is_grid_edge(size[2])) return std::nullopt;
   return "claims a grid of " + std::to_string(size[0]) + " x " + std::to_string(size[1]) + " x " +
          std::to_string(size[2]) + " voxels";
+}
+
+/// Of a message that says where it lies. Poses of odometry are their readers' to judge.
+template <typename M>
+Complaint bad_frame(const M& message) {
+  if (auto complaint = bad_grid(message.size_voxels)) return complaint;
+  const auto fits = [](std::int32_t origin) {
+    return origin >= -kMaxOriginVoxels && origin <= kMaxOriginVoxels && origin % kBrickEdgeVoxels == 0;
+  };
+  const auto& origin = message.origin_voxels;
+  if (!std::all_of(std::begin(origin), std::end(origin), fits)) {
+    return "claims to begin at voxel (" + std::to_string(origin[0]) + ", " + std::to_string(origin[1]) +
+           ", " + std::to_string(origin[2]) + ")";
+  }
+  const auto near = [](double value) { return std::abs(value) <= kFarthest_m; };  // false for NaN
+  const auto& position = message.base_position_m;
+  const auto& orientation = message.base_orientation_xyzw;
+  const bool pose = std::all_of(std::begin(position), std::end(position), near) &&
+                    std::all_of(std::begin(orientation), std::end(orientation), near);
+  return pose ? Complaint{} : Complaint{"has a pose that is not finite, or over 10,000 km away"};
 }
 
 Complaint check_odometry(const std::byte*, std::size_t bytes) {
@@ -61,7 +91,7 @@ Complaint check_health(const std::byte* message, std::size_t bytes) {
 Complaint check_layers(const std::byte* message, std::size_t bytes) {
   if (bytes < sizeof(Layers)) return wrong_size(bytes, sizeof(Layers));
   const auto& layers = as<Layers>(message);
-  if (auto complaint = bad_grid(layers.size_voxels)) return complaint;
+  if (auto complaint = bad_frame(layers)) return complaint;
   return first_of(too_many("lidars", layers.lidar_count, kMaxLidars),
                   wrong_size(bytes, layers_bytes(layers.size_voxels[0])));
 }
@@ -70,7 +100,7 @@ Complaint check_brick_map(const std::byte* message, std::size_t bytes) {
   if (bytes < sizeof(BrickMap)) return wrong_size(bytes, sizeof(BrickMap));
   const auto& map = as<BrickMap>(message);
   const auto& size = map.size_voxels;
-  if (auto complaint = bad_grid(size)) return complaint;
+  if (auto complaint = bad_frame(map)) return complaint;
   const std::uint64_t voxels = std::uint64_t(size[0]) * std::uint64_t(size[1]) * std::uint64_t(size[2]);
   if (map.brick_slots != voxels / kBrickVoxels) {
     return "claims " + std::to_string(map.brick_slots) + " brick slots, its grid has " +
@@ -88,6 +118,28 @@ bool is_lidar_name(std::string_view name) {
 }
 
 }  // namespace
+
+std::optional<Refusal> check_message(const Topic& topic, const std::byte* message, std::size_t chunk_bytes) {
+  using Reason = Refusal::Reason;
+  if (chunk_bytes < sizeof(MessageHeader) || as<MessageHeader>(message).magic != kMagic) {
+    return Refusal{Reason::foreign, "it is not from gvom"};
+  }
+  const auto& header = as<MessageHeader>(message);
+  const auto type = static_cast<std::uint16_t>(topic.type);
+  if (header.type != type) return Refusal{Reason::type, mismatch("message type", header.type, type)};
+  if (header.version != topic.version) {
+    return Refusal{Reason::version, mismatch("version", header.version, topic.version)};
+  }
+  if (header.size < sizeof(MessageHeader) || header.size > chunk_bytes) {
+    return Refusal{Reason::size, mismatch("size", header.size, chunk_bytes)};
+  }
+  if (header.stamp_ns < -kMaxStamp_ns || header.stamp_ns > kMaxStamp_ns) {
+    return Refusal{Reason::size, "its stamp is " + std::to_string(header.stamp_ns) + " ns"};
+  }
+  if (const auto complaint = topic.check(message, header.size))
+    return Refusal{Reason::size, "it " + *complaint};
+  return std::nullopt;
+}
 
 template <>
 Topic topic_of<Odometry>() {

@@ -34,6 +34,17 @@ struct Topic {
   std::uint32_t history = 0;
 };
 
+/// Why a message is not read.
+struct Refusal {
+  enum class Reason { foreign, type, version, size };
+  Reason reason;
+  std::string why;  ///< In words.
+};
+
+/// Nothing if the message at `message`, in a chunk of `chunk_bytes`, is one of the topic's and fits its
+/// chunk: whatever its counts and sizes say can then be read.
+std::optional<Refusal> check_message(const Topic& topic, const std::byte* message, std::size_t chunk_bytes);
+
 template <typename M>
 Topic topic_of();
 template <>

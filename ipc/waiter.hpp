@@ -14,6 +14,8 @@ enum class WaitResult {
   timeout,  ///< Neither.
 };
 
+/// A wait is as long as asked for by CLOCK_MONOTONIC, or up to 0.2 s longer if the wall clock is set back
+/// meanwhile: a thread of the waiter's own sees to it.
 /// Block signals in the thread that waits: more than five interruptions in one wait end the process. Take
 /// them in a sigwait thread that calls wake().
 class Waiter {

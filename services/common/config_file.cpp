@@ -13,6 +13,7 @@
 #include "services/common/config_check.hpp"
 #include "services/common/config_keys.hpp"
 #include "services/common/config_value.hpp"
+#include "services/common/yaml_documents.hpp"
 
 namespace gvom::services {
 
@@ -67,11 +68,12 @@ Result Loader::apply_file(const std::string& path) {
     return failure(path, "", errno != 0 ? std::strerror(errno) : "is empty");
   }
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text.str());
-    if (documents.size() != 1) {
-      return failure(path, "", "expected one YAML document, found " + std::to_string(documents.size()));
+    const int documents = count_yaml_documents(text.str());
+    if (documents != 1) {
+      return failure(path, "",
+                     std::string("expected one YAML document, found ") + (documents == 0 ? "none" : "more"));
     }
-    return apply_section("", documents.front(), Place{path, true});
+    return apply_section("", YAML::Load(text.str()), Place{path, true});
   } catch (const YAML::Exception& error) {
     return failure(Place{path, true}.at(error.mark), "", "not YAML: " + error.msg);
   }

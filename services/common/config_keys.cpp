@@ -80,6 +80,8 @@ bool is_section(const std::string& key) {
 }
 
 std::string nearest_key(const std::string& key) {
+  constexpr std::size_t kLongest = 128;  // farther than that from any key, and slow to compare
+  if (key.size() > kLongest) return "";
   std::set<std::string> keys = {kLidars};
   add_keys(vehicle_rows(), "", keys);
   if (const auto lidar_key = split_lidar_key(key))

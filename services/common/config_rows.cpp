@@ -96,6 +96,9 @@ const std::vector<VehicleRow>& vehicle_rows() {
       {{"fusion.voxel_rate_hz", "Hz", Rule::range, 0, 100, kOptional,
         "of the voxel map, at most, and only if somebody reads it; 0: never"},
        [](V& c) -> Field { return &c.fusion.voxel_rate_hz; }},
+      {{"fusion.missing_after_s", "s", Rule::range, 0.05, 60, kOptional,
+        "a lidar without a map newer than this before the newest of all is named as missing"},
+       [](V& c) -> Field { return &c.fusion.missing_after_s; }},
 
       {{"ipc.max_planners", "processes", Rule::range, 1, 32, kOptional,
         "that read layers or voxel maps at the same time"},
@@ -107,6 +110,12 @@ const std::vector<VehicleRow>& vehicle_rows() {
       {{"odometry.timeout_s", "s", Rule::range, 0.01, 60, kOptional,
         "a sweep waits this long for the odometry that brackets it (R3)"},
        [](V& c) -> Field { return &c.odometry.timeout_s; }},
+      {{"odometry.max_gap_s", "s", Rule::range, 0.05, 60, kOptional,
+        "a live sweep within a longer gap between two poses is dropped"},
+       [](V& c) -> Field { return &c.odometry.max_gap_s; }},
+      {{"odometry.max_speed_mps", "m/s", Rule::range, 1, 1000, kOptional,
+        "live odometry that moves faster from pose to pose has jumped: the map begins anew"},
+       [](V& c) -> Field { return &c.odometry.max_speed_mps; }},
   };
   return rows;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 
 #include <unistd.h>
@@ -37,6 +38,17 @@ void copy_text(char (&out)[N], std::string_view text) {
 }
 
 }  // namespace
+
+std::array<char, 40> age_text(std::int64_t made_ns, std::int64_t now_ns) {
+  std::array<char, 40> text{};
+  if (made_ns == 0) {
+    std::snprintf(text.data(), text.size(), "none yet");
+  } else {
+    std::snprintf(text.data(), text.size(), "newest %.0f ms old",
+                  static_cast<double>(now_ns - made_ns) * 1e-6);
+  }
+  return text;
+}
 
 void StageHistogram::record_ns(std::int64_t duration_ns) {
   const std::int64_t duration = std::max<std::int64_t>(duration_ns, 0);

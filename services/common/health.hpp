@@ -9,6 +9,9 @@
 
 namespace gvom::services {
 
+/// "newest 12 ms old", for a status line; "none yet" where `made_ns` is 0. Both of CLOCK_MONOTONIC.
+std::array<char, 40> age_text(std::int64_t made_ns, std::int64_t now_ns);
+
 /// How long a stage took, since the last message. Buckets of an eighth of an octave: percentiles are the
 /// upper edge of their bucket, at most 12.5 % above the truth and never above the maximum, which is exact.
 class StageHistogram {

@@ -47,7 +47,7 @@ std::optional<Decimal> parse_decimal(std::string_view text) {
   int exponent = 0;
   const auto parsed = std::from_chars(text.data() + i, text.data() + text.size(), exponent);
   if (parsed.ec != std::errc{} || parsed.ptr != text.data() + text.size()) return std::nullopt;
-  if (std::abs(exponent) > 1000) return std::nullopt;
+  if (exponent < -1000 || exponent > 1000) return std::nullopt;
   result.exponent += exponent;
   return result;
 }

@@ -35,6 +35,10 @@ struct LidarConfig {
 struct OdometryConfig {
   std::string source;      ///< `tum:FILE`; may be empty (given on the command line).
   double timeout_s = 1.0;  ///< A sweep waits this long for the odometry that brackets it (R3), 0.01 .. 60.
+  // The next two hold for live sensors. A recording is mapped by the odometry that it has (R3), however
+  // sparse: gvom-map and a replay at any rate give the same map.
+  double max_gap_s = 0.5;       ///< Between two poses; a sweep in a longer one is not mapped, 0.05 .. 60.
+  double max_speed_mps = 40.0;  ///< Faster from pose to pose is a jump: the map begins anew, 1 .. 1000.
 };
 
 /// `fusion.*`.
@@ -43,6 +47,7 @@ struct FusionConfig {
   double rate_hz = 0.0;                  ///< Layers at this rate; 0: on each map, 0 .. 100.
   double voxel_rate_hz =
       2.0;  ///< VoxelMap at most this often, and only if somebody reads it; 0: never, 0 .. 100.
+  double missing_after_s = 0.35;  ///< A lidar without a map newer than this before the newest, 0.05 .. 60.
 };
 
 /// `ipc.*`: sizes of the shared-memory pools.

@@ -18,6 +18,7 @@ FusionCounters::FusionCounters(services::HealthReport& health)
       drop_map_duplicate(health.counter("drop_map_duplicate")),
       drop_map_wrong_grid(health.counter("drop_map_wrong_grid")),
       drop_map_old_epoch(health.counter("drop_map_old_epoch")),
+      drop_map_before_jump(health.counter("drop_map_before_jump")),
       drop_map_refused(health.counter("drop_map_refused")),
       drop_map_backend_failed(health.counter("drop_map_backend_failed")),
       layers_out(health.counter("layers_out")),
@@ -25,6 +26,7 @@ FusionCounters::FusionCounters(services::HealthReport& health)
       voxel_maps_out(health.counter("voxel_maps_out")),
       drop_voxels_no_chunk(health.counter("drop_voxels_no_chunk")),
       epochs(health.counter("epochs")),
+      odometry_jumps(health.counter("odometry_jumps")),
       fuse(health.stage("fuse")),
       make_layers(health.stage("make_layers")),
       received_to_layers(health.stage("received_to_layers")) {}

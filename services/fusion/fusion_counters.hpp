@@ -18,6 +18,7 @@ struct FusionCounters {
   std::uint64_t& drop_map_duplicate;
   std::uint64_t& drop_map_wrong_grid;
   std::uint64_t& drop_map_old_epoch;
+  std::uint64_t& drop_map_before_jump;
   std::uint64_t& drop_map_refused;         // not readable: version, size
   std::uint64_t& drop_map_backend_failed;  // the last one then: the process leaves
   std::uint64_t& layers_out;
@@ -25,6 +26,7 @@ struct FusionCounters {
   std::uint64_t& voxel_maps_out;
   std::uint64_t& drop_voxels_no_chunk;
   std::uint64_t& epochs;
+  std::uint64_t& odometry_jumps;
   services::StageHistogram& fuse;
   services::StageHistogram& make_layers;
   services::StageHistogram& received_to_layers;

@@ -3,13 +3,14 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <string>
 #include <utility>
 
 #include "ipc/text.hpp"
 #include "services/common/bus/core_types.hpp"
-#include "services/common/bus/pool_spec.hpp"
+#include "services/fusion/missing.hpp"
 
 namespace gvom::fusion {
 
@@ -24,23 +25,6 @@ std::int64_t period_ns(double rate_hz) {
 }
 
 }  // namespace
-
-ipc::Expected<Bus> Bus::open(ipc::Runtime& runtime, const services::VehicleConfig& config) {
-  auto waiter = ipc::Waiter::create(runtime);
-  if (!waiter) return tl::unexpected(waiter.error());
-  auto inbox = MapInbox::open(runtime, *waiter, config);
-  if (!inbox) return tl::unexpected(inbox.error());
-  auto layers = ipc::LayersPublisher::open(runtime);
-  if (!layers) return tl::unexpected(layers.error());
-  auto voxels = ipc::BrickMapPublisher::voxel_map(runtime, voxel_map_capacity(services::pool_spec(config)));
-  if (!voxels) return tl::unexpected(voxels.error());
-  auto progress = ipc::Publisher<ipc::Progress>::open(runtime);
-  if (!progress) return tl::unexpected(progress.error());
-  auto health = ipc::Publisher<ipc::Health>::open(runtime);
-  if (!health) return tl::unexpected(health.error());
-  return Bus{std::move(*waiter), std::move(*inbox),    std::move(*layers),
-             std::move(*voxels), std::move(*progress), std::move(*health)};
-}
 
 FusionNode::FusionNode(const services::VehicleConfig& config, ipc::Runtime& runtime, Bus& bus,
                        services::Lifecycle& lifecycle, OpenBackend<FusionBackend> backend)
@@ -80,6 +64,7 @@ services::ExitCode FusionNode::run() {
   health_.set_state(failure_ ? ipc::HealthState::failed : ipc::HealthState::stopping, failure_.value_or(""));
   send_health(ipc::monotonic_ns());
   spdlog::info("{} maps fused, {} layers published", counters_.maps_fused, counters_.layers_out);
+  broker_.leave_if_gone();
   return failure_ ? services::ExitCode::try_again : services::ExitCode::ok;
 }
 
@@ -101,6 +86,11 @@ void FusionNode::fuse(const ArrivedMap& map) {
   if (header.header.epoch > epoch_) begin_epoch(header.header.epoch);
   if (header.header.epoch < epoch_) {
     ++counters_.drop_map_old_epoch;
+    return bus_.inbox.release(map.token);
+  }
+  if (header.odometry_jump_ns > jump_ns_) begin_after_jump(header.odometry_jump_ns);
+  if (jump_ns_ != 0 && header.header.stamp_ns < jump_ns_) {
+    ++counters_.drop_map_before_jump;
     return bus_.inbox.release(map.token);
   }
   const std::int64_t begin_ns = ipc::monotonic_ns();
@@ -127,6 +117,18 @@ void FusionNode::begin_epoch(std::uint64_t epoch) {
     spdlog::info("the odometry's clock begins anew: the window is emptied");
   }
   epoch_ = epoch;
+  jump_ns_ = 0;
+  empty_window();
+}
+
+void FusionNode::begin_after_jump(std::int64_t stamp_ns) {
+  ++counters_.odometry_jumps;
+  spdlog::warn("the odometry has jumped: the window is emptied");
+  jump_ns_ = stamp_ns;
+  empty_window();
+}
+
+void FusionNode::empty_window() {
   fuser_.reset();
   fresh_ = false;
   voxels_fresh_ = false;
@@ -203,6 +205,7 @@ void FusionNode::record_costs() {
 
 void FusionNode::fill_lidars(ipc::Layers& header) const {
   const Window& window = fuser_.window();
+  const std::int64_t missing_after_ns = std::llround(config_.fusion.missing_after_s * 1e9);
   header.maps_in_window = static_cast<std::uint32_t>(window.maps().size());
   header.lidar_count = static_cast<std::uint32_t>(bus_.inbox.lidars().size());
   for (std::size_t i = 0; i < bus_.inbox.lidars().size(); ++i) {
@@ -211,7 +214,7 @@ void FusionNode::fill_lidars(ipc::Layers& header) const {
     ipc::set_text(status.name, lidar.name);
     status.newest_stamp_ns = lidar.newest_stamp_ns;
     status.maps_in_window = static_cast<std::uint32_t>(window.count(static_cast<int>(i)));
-    status.missing = status.maps_in_window == 0 ? 1 : 0;
+    status.missing = is_missing(window, static_cast<int>(i), missing_after_ns) ? 1 : 0;
     status.maps_received = lidar.maps.counters().received;
     status.maps_lost = lidar.maps.counters().lost;
   }
@@ -276,9 +279,9 @@ void FusionNode::send_health(std::int64_t now_ns) {
     counters_.drop_map_refused += lidar.maps.counters().refused();
   }
   const ipc::Health& health = health_.take(now_ns);
-  char status[96];
-  std::snprintf(status, sizeof status, "%.1f layers/s, %zu maps in the window", health.rate_hz,
-                fuser_.window().maps().size());
+  char status[128];
+  std::snprintf(status, sizeof status, "%.1f layers/s, %s, %zu maps in the window", health.rate_hz,
+                services::age_text(last_layers_ns_, health.mono_ns).data(), fuser_.window().maps().size());
   services::notify_status(status);
   if (!bus_.health.publish(health, newest_.header.stamp_ns, epoch_))
     log_drops_(spdlog::level::warn, "a health message is lost");

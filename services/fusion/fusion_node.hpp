@@ -49,6 +49,8 @@ class FusionNode {
   void fuse_arrived();
   void fuse(const ArrivedMap& map);
   void begin_epoch(std::uint64_t epoch);
+  void begin_after_jump(std::int64_t stamp_ns);
+  void empty_window();
   void count_refusal(AddResult result);
   /// Nothing of this process's map can be trusted any more: it leaves, to be started again.
   void fail(const DeviceError& error);
@@ -73,6 +75,7 @@ class FusionNode {
   MapFuser fuser_;
   ipc::BrickMap newest_{};  // header of the newest map in the window, for its stage times
   std::uint64_t epoch_ = 0;
+  std::int64_t jump_ns_ = 0;  // of this epoch: no map from before the odometry's last jump is of use
   std::int64_t fused_ns_ = 0;
   bool fresh_ = false;         // something was fused since the last layers
   bool voxels_fresh_ = false;  // layers were made since the last voxel map

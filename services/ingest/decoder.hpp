@@ -19,6 +19,12 @@ class Decoder {
   /// What recognises() looks for, in words.
   [[nodiscard]] virtual std::string expects() const = 0;
 
+  /// What tells this packet's sensor from others at the same address: its serial number or model; 0: nothing.
+  [[nodiscard]] virtual std::uint64_t sensor_id(const Packet& packet) const = 0;
+
+  /// More packets in a second do not come from one such sensor.
+  [[nodiscard]] virtual double most_packets_per_s() const = 0;
+
   /// Uses one packet. True if it closed a sweep, which is then in `out`.
   virtual bool decode(const Packet& packet, Sweep& out) = 0;
 

@@ -21,6 +21,7 @@ struct IngestCounters {
   std::uint64_t& drop_before_odometry;   // sweeps from before the first pose
   std::uint64_t& drop_odometry_timeout;  // sweeps that no pose came for
   std::uint64_t& drop_after_odometry;    // left when a replay ended
+  std::uint64_t& drop_odometry_gap;      // live sweeps that reach into a gap or a jump
   std::uint64_t& drop_overrun;           // live sweeps that the loop was too slow for
   std::uint64_t& drop_no_chunk;          // shared memory exhausted
   std::uint64_t& drop_backend_failed;    // the last one then: the process leaves
@@ -30,6 +31,8 @@ struct IngestCounters {
   std::uint64_t& odometry_lost;
   std::uint64_t& drop_odometry_not_finite;
   std::uint64_t& drop_odometry_not_newer;
+  std::uint64_t& odometry_gaps;
+  std::uint64_t& odometry_jumps;
   std::uint64_t& returns_used;
   std::uint64_t& drop_return_not_finite;
   std::uint64_t& drop_return_near;
@@ -38,6 +41,7 @@ struct IngestCounters {
   std::uint64_t& drop_return_overflow;
   std::uint64_t& packets;
   std::uint64_t& drop_packet_foreign;
+  std::uint64_t& drop_packet_second_sensor;
   std::uint64_t& drop_packet_truncated;
   std::uint64_t& drop_packet_duplicate;
   std::uint64_t& drop_packet_late;
@@ -45,6 +49,7 @@ struct IngestCounters {
   std::uint64_t& drop_packet_kernel;
   std::uint64_t& packet_out_of_order;
   std::uint64_t& column_invalid;
+  std::uint64_t& column_missing;
   std::uint64_t& epochs;
 
   services::StageHistogram& wait;  // received -> odometry there

@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kLongestWait{100};
 constexpr std::int64_t kProgressPeriod_ns = 250'000'000;  // also while idle, so that a replay sees us
+constexpr std::int64_t kLeastHealthPeriod_ns = 250'000'000;
 
 }  // namespace
 
@@ -52,7 +53,9 @@ IngestNode::IngestNode(const services::VehicleConfig& config, const services::Li
       mapper_(config.mapper.map, std::move(equipment.backend.backend)),
       credit_(lidar.name),
       reader_(std::move(equipment.source), static_cast<std::size_t>(lidar.max_returns),
-              [this] { bus_.waiter.wake(); }) {
+              [this] { bus_.waiter.wake(); }),
+      sensor_watch_(reader_.is_live() ? reader_.most_packets_per_s() : 0, ipc::monotonic_ns()),
+      odometry_watch_(config.odometry) {
   health_.set_backend(equipment.backend.name, equipment.backend.details);
   lifecycle_.on_stop([this] { bus_.waiter.wake(); });
 }
@@ -87,48 +90,8 @@ ExitCode IngestNode::run() {
   health_.set_state(failure_ ? ipc::HealthState::failed : ipc::HealthState::stopping, failure_.value_or(""));
   send_health(ipc::monotonic_ns());
   spdlog::info("{} of {} sweeps mapped", counters_.sweeps_mapped, counters_.sweeps_in);
+  broker_.leave_if_gone();
   return code;
-}
-
-void IngestNode::take_odometry() {
-  while (const auto progress = bus_.progress.take()) credit_.take(**progress, bus_.maps.sequence());
-  while (const auto sample = bus_.odometry.take()) {
-    const ipc::Odometry& odometry = **sample;
-    if (odometry.header.epoch > epoch_) begin_epoch(odometry.header.epoch);
-    if (odometry.header.epoch < epoch_) continue;  // of a clock that has been replaced
-    odometry_sequence_ = odometry.header.sequence;
-    lossless_ = (odometry.flags & ipc::Odometry::kLossless) != 0;
-    end_of_stream_ = (odometry.flags & ipc::Odometry::kEndOfStream) != 0;
-    odometry_came_ns_ = ipc::monotonic_ns();
-    ++counters_.odometry_in;
-    if (end_of_stream_) break;  // its pose is the last one again
-    const Pose T_odom_base = services::pose_of(odometry.position_m, odometry.orientation_xyzw);
-    switch (odometry_.add({odometry.header.stamp_ns, T_odom_base})) {
-      case OdometryBuffer::Add::added:
-        reader_.set_time_hint(odometry.header.stamp_ns);
-        break;
-      case OdometryBuffer::Add::not_finite:
-        ++counters_.drop_odometry_not_finite;
-        log_drops_(spdlog::level::warn, "odometry {}: not a pose, not used", odometry_sequence_);
-        break;
-      case OdometryBuffer::Add::not_newer:
-        ++counters_.drop_odometry_not_newer;
-        log_drops_(spdlog::level::warn, "odometry {}: its time goes back, not used", odometry_sequence_);
-        break;
-    }
-  }
-}
-
-void IngestNode::begin_epoch(std::uint64_t epoch) {
-  const bool first = epoch_ == 0;
-  epoch_ = epoch;
-  odometry_.clear();
-  end_of_stream_ = false;
-  front_since_ns_ = 0;
-  if (first) return;
-  ++counters_.epochs;
-  spdlog::info("the odometry's clock begins anew");
-  if (!reader_.is_live()) reader_.rewind();
 }
 
 bool IngestNode::map_due_sweeps() {
@@ -174,8 +137,9 @@ void IngestNode::map_sweep(const Sweep& sweep) {
   const auto shape = mapper_.count(sweep, odometry_);
   if (!shape && shape.error().reason == SweepError::Reason::device) return fail(shape.error().what);
   if (!shape) {
-    ++counters_.drop_before_odometry;
-    log_drops_(spdlog::level::info, "a sweep began before the odometry: dropped");
+    ++(odometry_broken_ ? counters_.drop_odometry_gap : counters_.drop_before_odometry);
+    log_drops_(spdlog::level::info, "a sweep began before the odometry{}: dropped",
+               odometry_broken_ ? " went on" : "");
     return;
   }
   if (!publish(sweep, *shape, begin_ns)) return;
@@ -209,6 +173,7 @@ bool IngestNode::publish(const Sweep& sweep, const BrickMapShape& shape, std::in
   header.dropped_too_near = filter.too_near;
   header.dropped_too_far = filter.too_far;
   header.dropped_body = filter.body;
+  header.odometry_jump_ns = odometry_jump_ns_;
   // A recording's sweep is there, as a sensor's would be, when the clock reaches it.
   header.mono_received_ns = sweep.received_ns != 0 ? sweep.received_ns : odometry_came_ns_;
   header.mono_mapped_ns = begin_ns;
@@ -249,22 +214,43 @@ void IngestNode::publish_progress() {
 
 void IngestNode::publish_health() {
   const std::int64_t now_ns = ipc::monotonic_ns();
-  if (!health_.due(now_ns)) return;
-  if (last_map_ns_ == 0)
-    health_.set_state(ipc::HealthState::starting, odometry_.empty() ? "no odometry yet" : "no sweep yet");
-  else if (end_of_stream_ || now_ns - last_map_ns_ < 1'000'000'000)
-    health_.set_state(ipc::HealthState::ok);
-  else
-    health_.set_state(ipc::HealthState::degraded, reader_.front_stamp() ? "no odometry" : "no sweeps");
+  const std::uint64_t faults = judge(now_ns);
+  const bool news = faults != told_faults_ && now_ns - told_health_ns_ >= kLeastHealthPeriod_ns;
+  if (!health_.due(now_ns) && !news) return;
+  told_faults_ = faults;
+  told_health_ns_ = now_ns;
   services::notify_watchdog();
   send_health(now_ns);
+}
+
+std::uint64_t IngestNode::judge(std::int64_t now_ns) {
+  services::Words words;
+  std::uint64_t faults = 0;
+  if (reader_.is_live() && !end_of_stream_) {
+    sensor_watch_.update(reader_.counters(), reader_.overruns(), now_ns);
+    odometry_watch_.describe(now_ns, words);
+    sensor_watch_.describe(words);
+    faults = sensor_watch_.faults() | std::uint64_t{odometry_watch_.faults(now_ns)} << 32;
+  }
+  const bool stale = !end_of_stream_ && now_ns - last_map_ns_ >= 1'000'000'000;
+  if (last_map_ns_ == 0) {
+    if (words.empty()) words.add(odometry_.empty() ? "no odometry yet" : "no sweep yet");
+    health_.set_state(ipc::HealthState::starting, words.text());
+  } else if (stale || !words.empty()) {
+    if (words.empty()) words.add(reader_.front_stamp() ? "no odometry" : "no sweeps");
+    health_.set_state(ipc::HealthState::degraded, words.text());
+  } else {
+    health_.set_state(ipc::HealthState::ok);
+  }
+  return faults;
 }
 
 void IngestNode::send_health(std::int64_t now_ns) {
   counters_.copy(reader_.counters(), reader_.overruns(), bus_.odometry.counters().lost);
   const ipc::Health& health = health_.take(now_ns);
   char status[128];
-  std::snprintf(status, sizeof status, "%.1f maps/s, %llu of %llu sweeps mapped", health.rate_hz,
+  std::snprintf(status, sizeof status, "%.1f maps/s, %s, %llu of %llu sweeps mapped", health.rate_hz,
+                services::age_text(last_map_ns_, health.mono_ns).data(),
                 static_cast<unsigned long long>(counters_.sweeps_mapped),
                 static_cast<unsigned long long>(counters_.sweeps_in));
   services::notify_status(status);

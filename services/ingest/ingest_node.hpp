@@ -19,6 +19,8 @@
 #include "services/common/vehicle_config.hpp"
 #include "services/ingest/fusion_credit.hpp"
 #include "services/ingest/ingest_counters.hpp"
+#include "services/ingest/odometry_watch.hpp"
+#include "services/ingest/sensor_watch.hpp"
 #include "services/ingest/sweep_reader.hpp"
 
 namespace gvom::ingest {
@@ -55,7 +57,10 @@ class IngestNode {
 
  private:
   void take_odometry();
+  void take_pose(const StampedPose& pose);
   void begin_epoch(std::uint64_t epoch);
+  /// From this pose on nothing follows from the poses before.
+  void break_odometry(OdometryStep step, const StampedPose& pose);
   /// Maps every sweep that the odometry has reached; false while one waits for room at fusion.
   bool map_due_sweeps();
   void map_sweep(const Sweep& sweep);
@@ -69,6 +74,8 @@ class IngestNode {
   [[nodiscard]] bool is_settled() const;
   void publish_progress();
   void publish_health();
+  /// The state for Health, in words where it is not ok. Returns the faults that it names.
+  std::uint64_t judge(std::int64_t now_ns);
   void send_health(std::int64_t now_ns);
 
   const services::LidarConfig& lidar_;
@@ -84,6 +91,8 @@ class IngestNode {
   SweepMapper mapper_;
   FusionCredit credit_;
   SweepReader reader_;
+  SensorWatch sensor_watch_;
+  OdometryWatch odometry_watch_;
 
   std::uint64_t epoch_ = 0;
   std::uint64_t odometry_sequence_ = 0;      // newest received
@@ -97,6 +106,10 @@ class IngestNode {
   std::uint64_t told_odometry_ = 0;
   std::uint64_t told_maps_ = 0;
   std::int64_t last_map_ns_ = 0;
+  bool odometry_broken_ = false;       // by a gap or a jump in this epoch
+  std::int64_t odometry_jump_ns_ = 0;  // stamp of the first pose after the last jump in this epoch
+  std::uint64_t told_faults_ = 0;      // in the last Health
+  std::int64_t told_health_ns_ = 0;
   std::optional<std::string> failure_;  // of the back end, for good
 };
 

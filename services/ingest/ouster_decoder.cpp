@@ -10,7 +10,10 @@ namespace {
 
 constexpr int kMaxFramesAhead = 32;
 constexpr int kMaxFramesBehind = 16;
+constexpr int kMaxFramesLost = 4;  // a longer gap is silence, not loss
+constexpr double kMostFramesPerSecond = 20;
 constexpr std::uint64_t kMaxTimestampNs = std::uint64_t{1} << 62;
+constexpr std::uint64_t kMaxRepeatNs = 1'000'000'000;
 
 /// The pixels of one column, with their ranges read by `range_mm`. Pixels without a return leave nothing;
 /// the write is unconditional and only the count depends on the range, so that nothing mispredicts.
@@ -52,6 +55,16 @@ std::string OusterDecoder::expects() const {
          ": packets of " + std::to_string(metadata_.packet_size()) + " bytes";
 }
 
+/// Packets of the newer profiles carry the sensor's serial number, 5 bytes.
+std::uint64_t OusterDecoder::sensor_id(const Packet& packet) const {
+  if (metadata_.layout.profile == OusterProfile::legacy) return 0;
+  return load_le<std::uint64_t>(packet.data + 7) & 0xFFFFFFFFFFu;
+}
+
+double OusterDecoder::most_packets_per_s() const {
+  return kMostFramesPerSecond * metadata_.columns_per_frame / metadata_.columns_per_packet;
+}
+
 void OusterDecoder::reset() {
   builder_.discard();
   restart_.fits();
@@ -80,8 +93,21 @@ OusterDecoder::Belongs OusterDecoder::classify(std::uint16_t frame) const {
   return Belongs::nowhere;
 }
 
+/// Whether its columns are not newer than those of the frame just completed: a flood of copies, which tells
+/// nothing of a stream that started again.
+bool OusterDecoder::is_repeated(const std::uint8_t* packet) const {
+  const auto column =
+      read_ouster_column(metadata_.layout, packet + metadata_.layout.packet_header, metadata_.beams());
+  return column.timestamp_ns <= static_cast<std::uint64_t>(newest_ns_) &&
+         column.timestamp_ns + kMaxRepeatNs >= static_cast<std::uint64_t>(newest_ns_);
+}
+
 /// True if the packet starts the stream anew, else it is counted as what it is.
-bool OusterDecoder::count_stray(Belongs belongs) {
+bool OusterDecoder::count_stray(Belongs belongs, const std::uint8_t* packet) {
+  if (belongs == Belongs::just_completed && is_repeated(packet)) {
+    ++state_.counters.duplicate_packets;
+    return false;
+  }
   if (restart_.misfits()) return true;
   SourceCounters& counters = state_.counters;
   if (belongs == Belongs::closed_frame) ++counters.late_packets;
@@ -99,12 +125,15 @@ bool OusterDecoder::decode(const Packet& packet, Sweep& out) {
   const Belongs belongs = classify(*frame);
   const bool fits = belongs == Belongs::open_frame || belongs == Belongs::next_frame;
   if (fits) restart_.fits();
-  if (!fits && !count_stray(belongs)) return false;
-  check_serial(packet.data);
+  if (!fits && !count_stray(belongs, packet.data)) return false;
+  check_serial(sensor_id(packet));
   bool closed = false;
   if (belongs != Belongs::open_frame) {
+    const bool follows = fits && any_frame_;
+    if (follows) count_skipped_frames(*frame);
     closed = open_ && close(out);
     begin(*frame);
+    whole_ = follows;
   }
   use(packet);
   if (!closed && received_ == metadata_.window_columns()) return close(out);
@@ -120,12 +149,21 @@ void OusterDecoder::begin(std::uint16_t frame) {
   any_frame_ = open_ = true;
   received_ = 0;
   highest_ = -1;
+  newest_ns_ = 0;
   columns_ = fresh_;
+}
+
+void OusterDecoder::count_skipped_frames(std::uint16_t frame) {
+  const int skipped = static_cast<std::uint16_t>(frame - frame_) - 1;
+  if (skipped > kMaxFramesLost) return;
+  state_.counters.missing_columns += static_cast<std::uint64_t>(skipped * metadata_.window_columns());
 }
 
 bool OusterDecoder::close(Sweep& out) {
   open_ = false;
   const int expected = metadata_.window_columns();
+  state_.counters.columns += static_cast<std::uint64_t>(received_);
+  if (whole_) state_.counters.missing_columns += static_cast<std::uint64_t>(expected - received_);
   return builder_.close(static_cast<double>(received_) / expected, received_ >= expected, out);
 }
 
@@ -161,6 +199,7 @@ void OusterDecoder::use_column(const std::uint8_t* bytes, const OusterColumn& co
   columns_[column.measurement_id] = ColumnState::received;
   highest_ = std::max<int>(highest_, column.measurement_id);
   ++received_;
+  newest_ns_ = std::max(newest_ns_, static_cast<std::int64_t>(column.timestamp_ns));
   const std::uint32_t index = builder_.add_time(static_cast<std::int64_t>(column.timestamp_ns));
   builder_.append(scratch_.data(),
                   project(bytes + metadata_.layout.column_header, column.measurement_id, index));
@@ -192,13 +231,10 @@ std::size_t OusterDecoder::project(const std::uint8_t* pixels, std::uint16_t mea
   return 0;
 }
 
-/// Packets of the newer profiles carry the sensor's serial number, 5 bytes.
-void OusterDecoder::check_serial(const std::uint8_t* packet) {
+void OusterDecoder::check_serial(std::uint64_t serial) {
   if (serial_checked_) return;
   serial_checked_ = true;
-  if (metadata_.layout.profile == OusterProfile::legacy || metadata_.serial == 0) return;
-  const std::uint64_t serial = load_le<std::uint64_t>(packet + 7) & 0xFFFFFFFFFFu;
-  if (serial == 0 || serial == metadata_.serial) return;
+  if (metadata_.serial == 0 || serial == 0 || serial == metadata_.serial) return;
   state_.warnings.push_back("the metadata is of sensor " + std::to_string(metadata_.serial) +
                             ", the packets are of sensor " + std::to_string(serial) +
                             ": beam angles may be wrong");

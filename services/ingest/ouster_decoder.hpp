@@ -20,6 +20,8 @@ class OusterDecoder final : public Decoder {
 
   [[nodiscard]] bool recognises(const Packet& packet) const override;
   [[nodiscard]] std::string expects() const override;
+  [[nodiscard]] std::uint64_t sensor_id(const Packet& packet) const override;
+  [[nodiscard]] double most_packets_per_s() const override;
   bool decode(const Packet& packet, Sweep& out) override;
   bool finish(Sweep& out) override;
   void reset() override;
@@ -30,14 +32,16 @@ class OusterDecoder final : public Decoder {
 
   [[nodiscard]] std::optional<std::uint16_t> frame_of(const std::uint8_t* packet) const;
   [[nodiscard]] Belongs classify(std::uint16_t frame) const;
-  bool count_stray(Belongs belongs);
+  [[nodiscard]] bool is_repeated(const std::uint8_t* packet) const;
+  bool count_stray(Belongs belongs, const std::uint8_t* packet);
   void begin(std::uint16_t frame);
   bool close(Sweep& out);
   [[nodiscard]] bool usable(const OusterColumn& column) const;
   void use(const Packet& packet);
   void use_column(const std::uint8_t* bytes, const OusterColumn& column);
   std::size_t project(const std::uint8_t* pixels, std::uint16_t measurement_id, std::uint32_t time_index);
-  void check_serial(const std::uint8_t* packet);
+  void check_serial(std::uint64_t serial);
+  void count_skipped_frames(std::uint16_t frame);
 
   OusterMetadata metadata_;
   OusterGeometry geometry_;
@@ -52,6 +56,8 @@ class OusterDecoder final : public Decoder {
   std::uint16_t frame_ = 0;
   bool any_frame_ = false;
   bool open_ = false;
+  bool whole_ = false;          // the open frame was seen from its beginning
+  std::int64_t newest_ns_ = 0;  // newest column of the open frame, or of the one just completed
   bool serial_checked_ = false;
 };
 

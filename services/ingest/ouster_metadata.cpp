@@ -18,6 +18,16 @@ constexpr int kMaxColumns = 8192;
 constexpr double kDefaultBeamOffsetMm = 15.806;
 constexpr std::array<double, 16> kDefaultLidarToSensor{-1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 36.18, 0, 0, 0, 1};
 
+/// A value for a message: short, and of a nested one only what it is (text is made of it recursively).
+std::string shown(const Json& json) {
+  constexpr std::size_t kLongest = 60;
+  if (json.is_structured()) return std::string("an ") + json.type_name();
+  const std::string text = json.dump();
+  return text.size() <= kLongest
+             ? text
+             : std::string(json.type_name()) + " of " + std::to_string(text.size()) + " characters";
+}
+
 /// Reads keys one by one and remembers the first thing that is wrong.
 class Reader {
  public:
@@ -41,7 +51,7 @@ class Reader {
       const double value = item.is_number() ? item.get<double>() : std::nan("");
       if (!(std::abs(value) <= limit)) {
         fail(key, "expected numbers of at most " + std::to_string(static_cast<int>(limit)) + ", got " +
-                      item.dump());
+                      shown(item));
         break;
       }
       values.push_back(value);
@@ -53,7 +63,7 @@ class Reader {
     const bool fits = json.is_number_integer() && json >= low && json <= high;
     if (fits) return json.get<int>();
     fail(key, "expected a whole number of " + std::to_string(low) + " .. " + std::to_string(high) + ", got " +
-                  json.dump());
+                  shown(json));
     return low;
   }
 
@@ -111,7 +121,7 @@ void read_profile(Reader& reader, OusterMetadata& out) {
   const Json* profile =
       reader.find({"lidar_data_format", "data_format", "config_params"}, "udp_profile_lidar");
   if (profile == nullptr) return;
-  const std::string name = profile->is_string() ? profile->get<std::string>() : profile->dump();
+  const std::string name = profile->is_string() ? profile->get<std::string>() : shown(*profile);
   const auto layout = find_ouster_layout(name);
   if (!layout) {
     reader.fail("udp_profile_lidar",
@@ -171,7 +181,7 @@ void read_beam_offset(Reader& reader, OusterMetadata& out) {
     return reader.warn("no lidar_origin_to_beam_origin_mm: 15.806 stands in for it");
   }
   if (!json->is_number() || !(std::abs(json->get<double>()) <= 1000.0)) {
-    return reader.fail("lidar_origin_to_beam_origin_mm", "expected millimetres, got " + json->dump());
+    return reader.fail("lidar_origin_to_beam_origin_mm", "expected millimetres, got " + shown(*json));
   }
   out.beam_offset_x_mm = json->get<double>();
 }

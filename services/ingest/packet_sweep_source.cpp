@@ -1,5 +1,6 @@
 #include "services/ingest/packet_sweep_source.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "services/ingest/monotonic.hpp"
@@ -11,6 +12,7 @@ constexpr int kUnrecognisedBeforeWarning = 500;
 // A live queue is drained even when the timeout is over, but a flood of foreign packets must not hold the
 // caller.
 constexpr std::int64_t kMaxOvertimeNs = 50'000'000;
+constexpr std::int64_t kSilenceNs = 1'000'000'000;
 
 }  // namespace
 
@@ -41,24 +43,43 @@ tl::expected<SourceEvent, std::string> PacketSweepSource::next(Sweep& out,
 bool PacketSweepSource::decode(const Packet& packet, Sweep& out) {
   ++state_->counters.packets;
   if (!decoder_->recognises(packet)) {
-    ++state_->counters.foreign_packets;
+    count_foreign(packet);
     warn_if_nothing_fits(packet.size);
     return false;
   }
-  if (!is_of_our_sensor(packet)) {
-    ++state_->counters.foreign_packets;
-    return false;
-  }
-  return decoder_->decode(packet, out);
+  if (is_of_our_sensor(packet)) return decoder_->decode(packet, out);
+  ++state_->counters.second_sensor_packets;
+  std::copy_n(packet.source.begin(), state_->counters.second_ipv4.size(),
+              state_->counters.second_ipv4.begin());
+  // The new sensor's frames must not go into the open sweep of the one before.
+  return !sensor_ && decoder_->finish(out);
 }
 
-/// The first sender is the sensor, until packets come from another one only (it was given a new address).
+void PacketSweepSource::count_foreign(const Packet& packet) {
+  SourceCounters& counters = state_->counters;
+  if (++counters.foreign_packets > 1 && counters.foreign_size != packet.size) ++counters.foreign_size_changes;
+  counters.foreign_size = packet.size;
+}
+
+/// The first sender is the sensor until another one takes over.
 bool PacketSweepSource::is_of_our_sensor(const Packet& packet) {
-  const bool same = !sensor_ || *sensor_ == packet.source;
-  if (same) other_sensor_.fits();
-  if (!same && !other_sensor_.misfits()) return false;
-  sensor_ = packet.source;
-  return true;
+  const Sender sender{packet.source, is_live() ? decoder_->sensor_id(packet) : 0};
+  if (!sensor_ || (!is_live() && takes_over(packet, sender))) sensor_ = sender;
+  if (*sensor_ == sender) {
+    heard_ns_ = packet.received_ns;
+    other_sensor_.fits();
+    return true;
+  }
+  if (is_live() && takes_over(packet, sender)) sensor_.reset();  // the next packet says who it is
+  other_ = sender;
+  return false;
+}
+
+/// Live, another sender is the sensor now if it sent two packets running and the one before has been silent
+/// for a second: it was exchanged, or given a new address. In a recording, if it sent many running.
+bool PacketSweepSource::takes_over(const Packet& packet, const Sender& sender) {
+  if (!is_live()) return !(*sensor_ == sender) && other_sensor_.misfits();
+  return other_ && *other_ == sender && packet.received_ns - heard_ns_ > kSilenceNs;
 }
 
 void PacketSweepSource::warn_if_nothing_fits(std::size_t packet_size) {
@@ -86,6 +107,7 @@ tl::expected<void, std::string> PacketSweepSource::rewind() {
   if (!done) return done;
   decoder_->reset();
   sensor_.reset();
+  other_.reset();
   other_sensor_.fits();
   error_.reset();
   ended_ = false;

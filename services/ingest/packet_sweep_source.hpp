@@ -20,21 +20,35 @@ class PacketSweepSource final : public Source {
   tl::expected<SourceEvent, std::string> next(Sweep& out, std::chrono::milliseconds timeout) override;
   tl::expected<void, std::string> rewind() override;
   [[nodiscard]] bool is_live() const override { return packets_->is_live(); }
+  [[nodiscard]] double most_packets_per_s() const override { return decoder_->most_packets_per_s(); }
   void set_time_hint(std::int64_t stamp_ns) override { decoder_->set_time_hint(stamp_ns); }
   [[nodiscard]] const SourceCounters& counters() const override { return state_->counters; }
   [[nodiscard]] const std::vector<std::string>& warnings() const override { return state_->warnings; }
 
  private:
+  /// Who sends: an address, and live also what the packet says of its sensor.
+  struct Sender {
+    Address address{};
+    std::uint64_t id = 0;
+    friend bool operator==(const Sender& a, const Sender& b) {
+      return a.address == b.address && a.id == b.id;
+    }
+  };
+
   bool decode(const Packet& packet, Sweep& out);
+  void count_foreign(const Packet& packet);
   bool is_of_our_sensor(const Packet& packet);
+  bool takes_over(const Packet& packet, const Sender& sender);
   void warn_if_nothing_fits(std::size_t packet_size);
   tl::expected<SourceEvent, std::string> end(Sweep& out);
 
   std::unique_ptr<SourceState> state_;
   std::unique_ptr<PacketSource> packets_;
   std::unique_ptr<Decoder> decoder_;
-  std::optional<Address> sensor_;
-  RestartDetector other_sensor_;
+  std::optional<Sender> sensor_;
+  std::optional<Sender> other_;       // who sent the newest packet that was not the sensor's
+  std::int64_t heard_ns_ = 0;         // live: when the sensor was last heard of
+  RestartDetector other_sensor_;      // in a recording
   std::optional<std::string> error_;  // to be told after the last sweep
   bool ended_ = false;
   int unrecognised_ = 0;  // packets before the first that the decoder recognises

@@ -1,6 +1,7 @@
 // Where sweeps come from: a recording or a live sensor, through the same decoder.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <memory>
@@ -15,12 +16,13 @@ namespace gvom::ingest {
 
 /// Why input was not used. Everything that is dropped is in exactly one of these.
 struct SourceCounters {
-  std::uint64_t packets = 0;            ///< Packets handed to the decoder.
-  std::uint64_t sweeps = 0;             ///< Sweeps handed out (complete or not).
-  std::uint64_t incomplete_sweeps = 0;  ///< ... of these, with columns missing.
-  std::uint64_t dropped_sweeps = 0;     ///< Under `min_sweep_fraction`, not handed out.
-  std::uint64_t foreign_packets = 0;    ///< Another size, another protocol, another sensor.
-  std::uint64_t truncated_packets = 0;  ///< Captured shorter than sent.
+  std::uint64_t packets = 0;                ///< Packets handed to the decoder.
+  std::uint64_t sweeps = 0;                 ///< Sweeps handed out (complete or not).
+  std::uint64_t incomplete_sweeps = 0;      ///< ... of these, with columns missing.
+  std::uint64_t dropped_sweeps = 0;         ///< Under `min_sweep_fraction`, not handed out.
+  std::uint64_t foreign_packets = 0;        ///< Another size, another protocol, a frame of another time.
+  std::uint64_t second_sensor_packets = 0;  ///< Of this sensor's kind, but of another sensor.
+  std::uint64_t truncated_packets = 0;      ///< Captured shorter than sent.
   std::uint64_t duplicate_packets = 0;
   std::uint64_t out_of_order_packets = 0;  ///< Late, but still of the open sweep: used.
   std::uint64_t late_packets = 0;          ///< Of a sweep that was closed already: dropped.
@@ -29,6 +31,13 @@ struct SourceCounters {
   std::uint64_t kernel_drops = 0;          ///< Lost in the socket's queue (live only).
   std::uint64_t invalid_columns = 0;       ///< Columns that the sensor itself marked invalid.
   std::uint64_t overflow_returns = 0;      ///< Beyond `max_returns`.
+
+  // Nothing that was dropped: what tells a person more about the above.
+  std::uint64_t columns = 0;               ///< Of closed sweeps, those that came (Velodyne: firing blocks).
+  std::uint64_t missing_columns = 0;       ///< ... and those that did not.
+  std::uint64_t foreign_size_changes = 0;  ///< Foreign packets of another size than the foreign one before.
+  std::uint64_t foreign_size = 0;          ///< Of the newest foreign packet, bytes.
+  std::array<std::uint8_t, 4> second_ipv4{};  ///< Who sent the newest packet of a second sensor.
 };
 
 /// What `Source::next` found.
@@ -57,6 +66,9 @@ class Source {
 
   /// True for sensors on the network: they do not wait for anybody.
   [[nodiscard]] virtual bool is_live() const = 0;
+
+  /// More packets in a second do not come from one sensor of this kind; 0: not known.
+  [[nodiscard]] virtual double most_packets_per_s() const { return 0; }
 
   /// For sensors without absolute time (Velodyne counts microseconds past the hour): a time near now
   /// on the odometry's clock, from which the hour is taken. Others ignore it.

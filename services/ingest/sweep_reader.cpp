@@ -14,6 +14,7 @@ SweepReader::SweepReader(std::unique_ptr<Source> source, std::size_t max_returns
                          std::function<void()> on_change)
     : source_(std::move(source)),
       live_(source_->is_live()),
+      most_packets_per_s_(source_->most_packets_per_s()),
       on_change_(std::move(on_change)),
       warned_(source_->warnings().size()) {
   for (Sweep& sweep : sweeps_) {

@@ -43,6 +43,7 @@ class SweepReader {
   void rewind();
 
   [[nodiscard]] bool is_live() const { return live_; }
+  [[nodiscard]] double most_packets_per_s() const { return most_packets_per_s_; }
   void set_time_hint(std::int64_t stamp_ns) { time_hint_ns_.store(stamp_ns, std::memory_order_relaxed); }
   [[nodiscard]] SourceCounters counters() const;
   /// Live sweeps that the loop was too slow for.
@@ -58,6 +59,7 @@ class SweepReader {
 
   std::unique_ptr<Source> source_;
   const bool live_;
+  const double most_packets_per_s_;
   std::function<void()> on_change_;
   std::array<Sweep, kSlots> sweeps_;
 

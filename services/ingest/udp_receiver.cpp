@@ -16,8 +16,6 @@ namespace gvom::ingest {
 namespace {
 
 constexpr std::size_t kMaxDatagram = 65536;
-constexpr int kWantedBuffer = 16 << 20;     // bytes
-constexpr int kSufficientBuffer = 4 << 20;  // about 0.1 s of the largest sensors
 
 void enlarge_buffer(int socket, std::uint16_t port, SourceState& state) {
   if (::setsockopt(socket, SOL_SOCKET, SO_RCVBUFFORCE, &kWantedBuffer, sizeof kWantedBuffer) != 0) {

@@ -10,6 +10,9 @@
 
 namespace gvom::ingest {
 
+inline constexpr int kWantedBuffer = 16 << 20;     // bytes, of the kernel's receive buffer
+inline constexpr int kSufficientBuffer = 4 << 20;  // about 0.1 s of the largest sensors
+
 class UdpReceiver final : public PacketSource {
  public:
   /// Binds to `port` (IPv4) on `bind_address`, or on every address if that is empty. `state` must outlive

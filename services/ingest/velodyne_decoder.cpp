@@ -50,6 +50,14 @@ std::string VelodyneDecoder::expects() const {
   return std::string(model_.name) + ": packets of 1206 bytes that begin with FF EE";
 }
 
+std::uint64_t VelodyneDecoder::sensor_id(const Packet& packet) const {
+  return packet.data[kPacketSize - 1];
+}
+
+double VelodyneDecoder::most_packets_per_s() const {
+  return 2e6 / (kBlocks * model_.block_us);  // dual return
+}
+
 void VelodyneDecoder::reset() {
   builder_.discard();
   clock_.reset();
@@ -58,7 +66,7 @@ void VelodyneDecoder::reset() {
 }
 
 void VelodyneDecoder::forget() {
-  open_ = false;
+  open_ = whole_ = false;
   gap_sum_ = 0;
   gap_count_ = received_ = 0;
   packet_times_ns_.clear();
@@ -106,6 +114,7 @@ bool VelodyneDecoder::use(const Packet& packet, std::int64_t time_ns, bool may_c
     const Shot& shot = shots_[static_cast<std::size_t>(i)];
     if (may_cut && open_ && shot.azimuth + kMaxJitter < azimuth_) {
       closed = close(out);
+      whole_ = true;
       may_cut = false;
     }
     if (!open_) begin(time_ns);
@@ -196,7 +205,10 @@ bool VelodyneDecoder::close(Sweep& out) {
       gap_sum_ > 0 ? static_cast<double>(kTurn) * gap_count_ / static_cast<double>(gap_sum_) : kTurn;
   const double missing = expected - received_;
   const double packet = kBlocks / (dual_ ? 2.0 : 1.0);
-  const bool kept = builder_.close(received_ / expected, missing < packet / 2, out);
+  const bool complete = missing < packet / 2;
+  state_.counters.columns += static_cast<std::uint64_t>(received_);
+  if (whole_ && !complete) state_.counters.missing_columns += static_cast<std::uint64_t>(missing);
+  const bool kept = builder_.close(received_ / expected, complete, out);
   forget();
   return kept;
 }

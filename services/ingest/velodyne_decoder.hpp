@@ -21,6 +21,8 @@ class VelodyneDecoder final : public Decoder {
 
   [[nodiscard]] bool recognises(const Packet& packet) const override;
   [[nodiscard]] std::string expects() const override;
+  [[nodiscard]] std::uint64_t sensor_id(const Packet& packet) const override;
+  [[nodiscard]] double most_packets_per_s() const override;
   bool decode(const Packet& packet, Sweep& out) override;
   bool finish(Sweep& out) override;
   void reset() override;
@@ -74,7 +76,8 @@ class VelodyneDecoder final : public Decoder {
   int last_gap_ = 0;
   std::int64_t gap_sum_ = 0;  // of the open sweep's blocks
   int gap_count_ = 0;
-  int received_ = 0;  // shots in the open sweep
+  int received_ = 0;    // shots in the open sweep
+  bool whole_ = false;  // a sweep was closed before the open one: it was seen from its beginning
   bool product_checked_ = false;
   bool hour_checked_ = false;
 };

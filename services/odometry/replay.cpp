@@ -90,6 +90,7 @@ ExitCode Replay::run() {
                published_, took.count(), rounds_, poses_.size(), readers_.maps_published());
   health_.set_state(ipc::HealthState::stopping);
   publish_health();
+  broker_.leave_if_gone();
   return outcome ? ExitCode::ok : outcome.error();
 }
 

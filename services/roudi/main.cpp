@@ -39,6 +39,9 @@ ExitCode serve(const services::VehicleConfig& config, services::Lifecycle& lifec
       "broker for '{}' is up after {:.1f} s: {:.0f} MB of shared memory, {:.0f} MB of it in {} pools",
       config.name, took.count(), static_cast<double>(ipc::shared_memory_bytes(plan)) * 1e-6,
       static_cast<double>(plan.total_bytes) * 1e-6, plan.pools.size());
+  services::notify_status(
+      fmt::format("{:.0f} MB of shared memory", static_cast<double>(ipc::shared_memory_bytes(plan)) * 1e-6)
+          .c_str());
   services::notify_ready();
   while (!lifecycle.stopping())
     lifecycle.sleep_until(std::chrono::steady_clock::now() + std::chrono::hours(1));

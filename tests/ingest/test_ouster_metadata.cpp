@@ -106,3 +106,13 @@ TEST_CASE("a profile that is not supported is refused by name") {
   sensor.profile = "FUSA_RNG15_RFL8_NIR8_DUAL";
   check_error(sensor.json(), "profile FUSA_RNG15_RFL8_NIR8_DUAL is not supported (LEGACY, RNG15_RFL8_NIR8");
 }
+
+TEST_CASE("a value that is nested without end is refused, not printed") {
+  constexpr std::size_t kDepth = 200000;  // text made of it recursively would need more stack than there is
+  OusterSensor sensor;
+  sensor.altitudes = "[0, " + std::string(kDepth, '[') + std::string(kDepth, ']') + "]";
+  check_error(sensor.json(), "beam_altitude_angles: expected numbers of at most 90, got an array");
+  sensor = {};
+  sensor.window = "[\"" + std::string(1000, 'x') + "\", 1]";
+  check_error(sensor.json(), "got string of 1002 characters");
+}

@@ -159,7 +159,8 @@ TEST_CASE("another size, another sender, another protocol, a far frame: foreign,
   REQUIRE(sweeps.size() == 1);
   CHECK(sweeps[0].complete);
   CHECK(sweeps[0].returns.size() == 32);
-  CHECK(stream.counters().foreign_packets == 4);
+  CHECK(stream.counters().foreign_packets == 3);
+  CHECK(stream.counters().second_sensor_packets == 1);
 }
 
 TEST_CASE("packets to other ports are foreign if a port is asked for") {
@@ -192,7 +193,29 @@ TEST_CASE("a sensor that got another address is taken up again") {
                           .whole_frame(4, {9, 7502, 1})
                           .play();
   CHECK(sweeps.size() == 2);
-  CHECK(stream.counters().foreign_packets == 7);
+  CHECK(stream.counters().second_sensor_packets == 7);
+}
+
+TEST_CASE("a frame's packets that come ten times over are duplicates, and no stream that starts again") {
+  Stream stream;
+  for (int frame = 1; frame <= 3; ++frame) {
+    stream.whole_frame(frame);
+    for (int copy = 0; copy < 9; ++copy) stream.packet(frame, 12);
+  }
+  CHECK(stream.play().size() == 3);
+  CHECK(stream.counters().duplicate_packets == 27);
+  CHECK(stream.counters().dropped_sweeps == 0);
+}
+
+TEST_CASE("columns that never came are counted, of whole frames too, but not before the first whole frame") {
+  Stream stream;
+  stream.packet(1, 8).packet(1, 12);  // began within the frame
+  stream.packet(2, 0).packet(2, 4).packet(2, 12);
+  stream.whole_frame(4);
+  stream.whole_frame(20);  // after a silence
+  stream.play();
+  CHECK(stream.counters().columns == 8 + 12 + 16 + 16);
+  CHECK(stream.counters().missing_columns == 4 + 16);
 }
 
 TEST_CASE("returns beyond max_returns are counted, and the sweep is what fits") {

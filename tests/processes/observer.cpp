@@ -9,8 +9,8 @@
 #include "ipc/brick_map.hpp"
 #include "ipc/fixed.hpp"
 #include "ipc/layers.hpp"
+#include "ipc/pool_use.hpp"
 #include "ipc/waiter.hpp"
-#include "tests/ipc/pool_use.hpp"
 
 namespace gvom::test {
 
@@ -44,6 +44,17 @@ Voxel voxel_of(const ipc::BrickMapSample& map, std::size_t slot, std::int32_t br
   return voxel;
 }
 
+/// All or nothing for whoever reads at the same time.
+void save(const std::vector<Voxel>& voxels, const std::string& path) {
+  std::ofstream file(path + ".new", std::ios::binary);
+  file.write(reinterpret_cast<const char*>(voxels.data()),
+             static_cast<std::streamsize>(voxels.size() * sizeof(Voxel)));
+  file.close();
+  std::rename((path + ".new").c_str(), path.c_str());
+}
+
+}  // namespace
+
 std::vector<Voxel> observed_voxels(const ipc::BrickMapSample& map) {
   std::vector<Voxel> voxels;
   for (std::size_t slot = 0; slot < map.header().brick_slots; ++slot) {
@@ -57,17 +68,6 @@ std::vector<Voxel> observed_voxels(const ipc::BrickMapSample& map) {
             [](const Voxel& a, const Voxel& b) { return std::tie(a.z, a.y, a.x) < std::tie(b.z, b.y, b.x); });
   return voxels;
 }
-
-/// All or nothing for whoever reads at the same time.
-void save(const std::vector<Voxel>& voxels, const std::string& path) {
-  std::ofstream file(path + ".new", std::ios::binary);
-  file.write(reinterpret_cast<const char*>(voxels.data()),
-             static_cast<std::streamsize>(voxels.size() * sizeof(Voxel)));
-  file.close();
-  std::rename((path + ".new").c_str(), path.c_str());
-}
-
-}  // namespace
 
 Observer::Observer(const std::string& folder)
     : folder_(folder),
@@ -93,7 +93,7 @@ void Observer::watch() {
   auto layers = ipc::LayersSubscriber::open(runtime).value();
   auto voxels = ipc::BrickMapSubscriber::voxel_map(runtime).value();
   auto health = ipc::Subscriber<ipc::Health>::open(runtime).value();
-  ipc::test::PoolUse pool_use;
+  auto pool_reports = ipc::PoolReports::open(runtime).value();
   auto waiter = ipc::Waiter::create(runtime).value();
   EXPECT(waiter.add(layers) && waiter.add(voxels) && waiter.add(health));
   up_step_.reach(1);
@@ -106,10 +106,11 @@ void Observer::watch() {
       board_->newest = sample->header();
     }
     while (const auto sample = health.take()) note(**sample);
-    if (const auto used = pool_use.take()) {
+    if (const auto pools = pool_reports.take()) {
       ++board_->pool_reports;
-      board_->pools = static_cast<int>(std::min<std::size_t>(used->size(), kMostPools));
-      std::copy_n(used->begin(), board_->pools, board_->used_chunks);
+      board_->pools = static_cast<int>(std::min<std::size_t>(pools->size(), kMostPools));
+      for (int i = 0; i < board_->pools; ++i)
+        board_->used_chunks[i] = (*pools)[static_cast<std::size_t>(i)].used;
     }
     ::pthread_mutex_unlock(&board_->mutex);
   }

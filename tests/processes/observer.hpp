@@ -9,11 +9,15 @@
 #include <string>
 #include <vector>
 
+#include "ipc/brick_map.hpp"
 #include "ipc/messages.hpp"
 #include "tests/ipc/processes.hpp"
 #include "tests/processes/results.hpp"
 
 namespace gvom::test {
+
+/// The observed voxels of a map in z, y, x order.
+std::vector<Voxel> observed_voxels(const ipc::BrickMapSample& map);
 
 class Observer {
  public:
@@ -30,6 +34,8 @@ class Observer {
   [[nodiscard]] std::uint64_t counter(const std::string& process, const std::string& name) const;
   /// The counters called drop_* of a process's last Health that are not zero, with their values.
   [[nodiscard]] std::string drops(const std::string& process) const;
+  /// A process's last Health; nothing if there was none yet.
+  [[nodiscard]] std::optional<ipc::Health> health(const std::string& process) const;
   /// What computes, "NAME: DETAILS", as the process's last Health has it; empty if there was none yet.
   [[nodiscard]] std::string backend(const std::string& process) const;
   /// Waits for a process's Health of this state.
@@ -57,7 +63,6 @@ class Observer {
   void note(const ipc::Health& health);
   template <class Read>
   auto read(Read what) const;
-  [[nodiscard]] std::optional<ipc::Health> health(const std::string& process) const;
 
   std::string folder_;
   Board* board_;

@@ -115,16 +115,14 @@ TEST_CASE("gvom-snapshot and gvom-play stop well") {
   }
 }
 
-TEST_CASE("where one signal is not enough, a second one ends at once") {
+TEST_CASE("one signal ends who joins a broker that hangs") {
   const TemporaryFolder folder;
   Graph graph(simulated(folder.path(), 0.2));
   graph.roudi().send(SIGSTOP);  // who joins now waits for an answer
   const auto fusion = graph.start("gvom-fusion", {});
   std::this_thread::sleep_for(300ms);
-  fusion->send(SIGTERM);
-  std::this_thread::sleep_for(300ms);
   CHECK(fusion->runs());
-  CHECK(fusion->stop(SIGTERM, 1s) == 128 + SIGTERM);
+  CHECK(fusion->stop(SIGTERM, 1s) == 0);
   graph.roudi().send(SIGCONT);
   graph.stop();
 }

@@ -45,25 +45,25 @@ ipc::Layers layers_after(std::int64_t latency_ns, std::int64_t stamp_ns = 0) {
 
 TEST_CASE("processor time is found behind any process name") {
   const std::string fields = " S 1 2 3 4 5 6 7 8 9 10 120 30 14 15 16";
-  CHECK(summary::cpu_ticks_of("42 (gvom-fusion)" + fields) == 150);
-  CHECK(summary::cpu_ticks_of("42 (a) b (c d)" + fields) == 150);
-  CHECK(!summary::cpu_ticks_of("42 (gvom-fusion) S 1 2"));
-  CHECK(!summary::cpu_ticks_of(""));
+  CHECK(tools::cpu_ticks_of("42 (gvom-fusion)" + fields) == 150);
+  CHECK(tools::cpu_ticks_of("42 (a) b (c d)" + fields) == 150);
+  CHECK(!tools::cpu_ticks_of("42 (gvom-fusion) S 1 2"));
+  CHECK(!tools::cpu_ticks_of(""));
 }
 
 TEST_CASE("memory is read by its whole key") {
   const std::string status = "Name:\tVmHWM\nVmHWM:\t    2048 kB\nRssAnon:\t     3 kB\n";
-  CHECK(summary::memory_bytes_of(status, "VmHWM") == 2048u * 1024u);
-  CHECK(summary::memory_bytes_of(status, "RssAnon") == 3u * 1024u);
-  CHECK(!summary::memory_bytes_of(status, "Rss"));
+  CHECK(tools::memory_bytes_of(status, "VmHWM") == 2048u * 1024u);
+  CHECK(tools::memory_bytes_of(status, "RssAnon") == 3u * 1024u);
+  CHECK(!tools::memory_bytes_of(status, "Rss"));
 }
 
 TEST_CASE("this process has used something, one that does not exist nothing") {
-  const auto own = summary::read_usage(static_cast<std::uint32_t>(getpid()));
+  const auto own = tools::read_usage(static_cast<std::uint32_t>(getpid()));
   REQUIRE(own);
   CHECK(own->peak_bytes >= own->private_bytes);
   CHECK(own->private_bytes > 0);
-  CHECK(!summary::read_usage(0));
+  CHECK(!tools::read_usage(0));
 }
 
 TEST_CASE("percentiles of the latency are exact") {

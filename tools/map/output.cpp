@@ -27,6 +27,7 @@ nlohmann::json source_counts(const ingest::SourceCounters& c) {
           {"incomplete_sweeps", c.incomplete_sweeps},
           {"dropped_sweeps", c.dropped_sweeps},
           {"foreign_packets", c.foreign_packets},
+          {"second_sensor_packets", c.second_sensor_packets},
           {"truncated_packets", c.truncated_packets},
           {"duplicate_packets", c.duplicate_packets},
           {"out_of_order_packets", c.out_of_order_packets},

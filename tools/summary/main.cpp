@@ -79,7 +79,7 @@ class Listener {
   void take(std::int64_t now_ns) {
     while (const auto layers = layers_.take()) record_.add(layers->header());
     while (const auto health = health_.take())
-      record_.add(**health, summary::read_usage((*health)->pid), now_ns);
+      record_.add(**health, tools::read_usage((*health)->pid), now_ns);
     record_.set_layers_lost(layers_.counters().lost);
     for (const auto& refusal : {layers_.new_refusal(), health_.new_refusal()})
       if (refusal) spdlog::warn("{}", *refusal);
@@ -90,7 +90,7 @@ class Listener {
 
   void look_at_silent(std::int64_t now_ns) {
     for (const Silent& process : silent_)
-      if (const auto usage = summary::read_usage(process.pid))
+      if (const auto usage = tools::read_usage(process.pid))
         record_.add(process.name, process.pid, *usage, now_ns);
   }
 

@@ -68,9 +68,8 @@ bool is_one_of(const std::string& counter, const Reason (&reasons)[N]) {
 std::string other_drops(const ProcessRecord& process) {
   std::string words;
   for (const auto& [name, count] : process.counters) {
-    const bool is_drop = name.compare(0, 5, "drop_") == 0 || name == "odometry_lost";
-    if (!is_drop || count == 0 || is_one_of(name, kSweepReasons) || is_one_of(name, kReturnReasons) ||
-        is_one_of(name, kMapReasons))
+    if (!tools::is_drop(name) || count == 0 || is_one_of(name, kSweepReasons) ||
+        is_one_of(name, kReturnReasons) || is_one_of(name, kMapReasons))
       continue;
     words += fmt::format("{}{} {}", words.empty() ? "" : ", ", count, name);
   }
@@ -82,18 +81,18 @@ std::string lidar_table(const RunRecord& record) {
                                  "mapped", "incomplete", "dropped");
   for (const ProcessRecord* ingest : record.ingests()) {
     const Sum sweeps = sum_of(*ingest, kSweepReasons);
-    text += fmt::format("{:<16}{:>10}{:>11}{:>8}{:>11}{:>9}{}{}\n", lidar_of(*ingest),
+    text += fmt::format("{:<16}{:>10}{:>11}{:>8}{:>11}{:>9}{}{}\n", tools::lidar_of(ingest->name),
                         ingest->counter("packets"), ingest->counter("sweeps_in"),
                         ingest->counter("sweeps_mapped"), ingest->counter("sweep_incomplete"), sweeps.total,
                         sweeps.total > 0 ? ": " : "", sweeps.words);
   }
   for (const ProcessRecord* ingest : record.ingests()) {
     const Sum returns = sum_of(*ingest, kReturnReasons);
-    text += fmt::format("  {}: {} returns mapped, {} filtered{}{}\n", lidar_of(*ingest),
+    text += fmt::format("  {}: {} returns mapped, {} filtered{}{}\n", tools::lidar_of(ingest->name),
                         ingest->counter("returns_used"), returns.total, returns.total > 0 ? ": " : "",
                         returns.words);
     if (const std::string others = other_drops(*ingest); !others.empty())
-      text += fmt::format("  {}: also {}\n", lidar_of(*ingest), others);
+      text += fmt::format("  {}: also {}\n", tools::lidar_of(ingest->name), others);
   }
   return text;
 }
@@ -139,22 +138,6 @@ std::string process_table(const RunRecord& record) {
          "  peak memory counts the shared memory that a process has touched, so it does not add up)\n";
 }
 
-const char* to_string(ipc::HealthState state) {
-  switch (state) {
-    case ipc::HealthState::starting:
-      return "starting";
-    case ipc::HealthState::ok:
-      return "ok";
-    case ipc::HealthState::degraded:
-      return "degraded";
-    case ipc::HealthState::failed:
-      return "failed";
-    case ipc::HealthState::stopping:
-      return "stopping";
-  }
-  return "unknown";
-}
-
 /// Who starts waits for the others: only a long wait is worth a line.
 bool is_worth_a_line(const Complaint& complaint) {
   constexpr std::uint64_t kLongStart = 3;
@@ -166,7 +149,7 @@ std::string complaints(const RunRecord& record) {
   for (const ProcessRecord& process : record.processes())
     for (const Complaint& complaint : process.complaints)
       if (is_worth_a_line(complaint))
-        text += fmt::format("  {} was {} ({} s): {}\n", process.name, to_string(complaint.state),
+        text += fmt::format("  {} was {} ({} s): {}\n", process.name, tools::to_string(complaint.state),
                             complaint.messages, complaint.reason);
   return text.empty() ? "no process reported trouble once it had started\n" : "not ok at some time:\n" + text;
 }
@@ -178,7 +161,7 @@ nlohmann::json json_of(const ProcessRecord& process) {
                          {"backend_details", process.backend_details}};
   for (const auto& [name, value] : process.counters) json["counters"][name] = value;
   for (const Complaint& complaint : process.complaints)
-    json["not_ok"].push_back({{"state", to_string(complaint.state)},
+    json["not_ok"].push_back({{"state", tools::to_string(complaint.state)},
                               {"reason", complaint.reason},
                               {"messages", complaint.messages}});
   if (!process.usage) return json;
@@ -194,7 +177,7 @@ nlohmann::json json_of(const ProcessRecord& process) {
 std::string progress_line(const RunRecord& record) {
   std::string text = fmt::format("{:6.1f} s", record.recording_s());
   for (const ProcessRecord* ingest : record.ingests())
-    text += fmt::format("   {} {} sweeps", lidar_of(*ingest), ingest->counter("sweeps_mapped"));
+    text += fmt::format("   {} {} sweeps", tools::lidar_of(ingest->name), ingest->counter("sweeps_mapped"));
   text += fmt::format("   {} layers", record.layers_read());
   if (const auto latency = record.latency()) text += fmt::format(", p50 {:.1f} ms", latency->p50_ms);
   return text;

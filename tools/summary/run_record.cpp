@@ -54,10 +54,7 @@ void RunRecord::add(const ipc::Health& health, const std::optional<Usage>& usage
   ProcessRecord& from = process(std::string(ipc::text_of(health.process)), health.pid);
   from.backend = ipc::text_of(health.backend);
   from.backend_details = ipc::text_of(health.backend_details);
-  from.counters.clear();
-  const auto count = std::min<std::uint32_t>(health.counter_count, ipc::Health::kMaxCounters);
-  for (std::uint32_t i = 0; i < count; ++i)
-    from.counters.emplace_back(ipc::text_of(health.counters[i].name), health.counters[i].value);
+  from.counters = tools::counters_of(health);
   see_state(from, static_cast<ipc::HealthState>(health.state), std::string(ipc::text_of(health.reason)));
   if (usage) see_usage(from, *usage, mono_ns);
 }
@@ -74,7 +71,7 @@ void RunRecord::add(const ipc::Layers& layers) {
 }
 
 std::vector<const ProcessRecord*> RunRecord::ingests() const {
-  return with_prefix(kIngestPrefix);
+  return with_prefix(tools::kIngestPrefix);
 }
 
 std::vector<const ProcessRecord*> RunRecord::fusions() const {
@@ -111,10 +108,6 @@ std::vector<const ProcessRecord*> RunRecord::with_prefix(const std::string& pref
     if (process.name.compare(0, prefix.size(), prefix) == 0) found.push_back(&process);
   std::sort(found.begin(), found.end(), [](const auto* a, const auto* b) { return a->name < b->name; });
   return found;
-}
-
-std::string lidar_of(const ProcessRecord& ingest) {
-  return ingest.name.substr(sizeof(kIngestPrefix) - 1);
 }
 
 }  // namespace gvom::summary

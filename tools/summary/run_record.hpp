@@ -4,13 +4,15 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "ipc/messages.hpp"
-#include "tools/summary/process_usage.hpp"
+#include "tools/common/health_view.hpp"
+#include "tools/common/process_usage.hpp"
 
 namespace gvom::summary {
+
+using tools::Usage;
 
 /// A state that is not as it should be, and how many of its Health messages said so.
 struct Complaint {
@@ -25,7 +27,7 @@ struct ProcessRecord {
   std::uint32_t pid = 0;
   std::string backend;
   std::string backend_details;
-  std::vector<std::pair<std::string, std::uint64_t>> counters;  ///< Newest values, in the process's order.
+  tools::Counters counters;           ///< Newest values, in the process's order.
   std::vector<Complaint> complaints;  ///< What it said as degraded or failed, or if it never was ok.
   bool was_ok = false;
   std::optional<Usage> usage;  ///< Newest; private_bytes is the highest seen.
@@ -76,10 +78,5 @@ class RunRecord {
   std::int64_t first_stamp_ns_ = 0;
   std::int64_t newest_stamp_ns_ = 0;
 };
-
-inline constexpr char kIngestPrefix[] = "gvom-ingest-";
-
-/// "gvom-ingest-front" -> "front".
-std::string lidar_of(const ProcessRecord& ingest);
 
 }  // namespace gvom::summary

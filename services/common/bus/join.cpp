@@ -3,6 +3,8 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include "services/common/memory_lock.hpp"
+
 namespace gvom::services {
 
 using namespace std::chrono_literals;
@@ -26,15 +28,18 @@ ExitCode exit_code_of(const ipc::Error& error) {
   return ExitCode::internal;
 }
 
-tl::expected<ipc::Runtime, ExitCode> join_bus(const std::string& name, const Lifecycle& lifecycle,
+tl::expected<ipc::Runtime, ExitCode> join_bus(const std::string& name, Lifecycle& lifecycle,
                                               std::chrono::milliseconds patience) {
   const auto deadline = std::chrono::steady_clock::now() + patience;
   while (!lifecycle.stopping() && !ipc::broker_answers() && std::chrono::steady_clock::now() < deadline) {
     std::this_thread::sleep_for(20ms);
   }
   if (lifecycle.stopping()) return tl::make_unexpected(ExitCode::ok);
+  // A broker that hangs takes the request and never answers.
+  lifecycle.on_stop([] { _exit(to_int(ExitCode::ok)); });
   auto runtime =
       ipc::Runtime::connect(name, 0ms, [](const std::string& line) { spdlog::warn("bus: {}", line); });
+  lifecycle.on_stop({});
   if (runtime) return std::move(*runtime);
   spdlog::error("{}", runtime.error().message);
   return tl::make_unexpected(exit_code_of(runtime.error()));
@@ -42,6 +47,7 @@ tl::expected<ipc::Runtime, ExitCode> join_bus(const std::string& name, const Lif
 
 HostMemory ready_payloads(const ipc::Runtime& runtime) {
   if (const auto faulted = runtime.prefault(); !faulted) spdlog::warn("{}", faulted.error().message);
+  if (const auto locked = lock_memory(); !locked) spdlog::warn("{}", locked.error());
   const auto payloads = runtime.payload_segment();
   return payloads ? HostMemory{payloads->base, payloads->bytes} : HostMemory{};
 }
@@ -50,6 +56,10 @@ void BrokerWatch::check() {
   const auto now = std::chrono::steady_clock::now();
   if (now < next_) return;
   next_ = now + 100ms;
+  leave_if_gone();
+}
+
+void BrokerWatch::leave_if_gone() const {
   if (runtime_.broker_alive()) return;
   spdlog::critical("the broker is gone: leaving, to be started again");
   spdlog::shutdown();

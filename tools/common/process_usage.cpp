@@ -1,4 +1,4 @@
-#include "tools/summary/process_usage.hpp"
+#include "tools/common/process_usage.hpp"
 
 #include <unistd.h>
 
@@ -6,7 +6,7 @@
 #include <iterator>
 #include <sstream>
 
-namespace gvom::summary {
+namespace gvom::tools {
 
 namespace {
 
@@ -52,4 +52,4 @@ std::optional<Usage> read_usage(std::uint32_t pid) {
   return Usage{static_cast<double>(*ticks) / static_cast<double>(sysconf(_SC_CLK_TCK)), *peak, *own};
 }
 
-}  // namespace gvom::summary
+}  // namespace gvom::tools

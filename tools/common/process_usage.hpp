@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-namespace gvom::summary {
+namespace gvom::tools {
 
 struct Usage {
   double cpu_s = 0.0;               ///< User and system time since its start.
@@ -22,4 +22,4 @@ std::optional<std::uint64_t> memory_bytes_of(const std::string& status, const st
 /// Nothing if there is no such process (any more).
 std::optional<Usage> read_usage(std::uint32_t pid);
 
-}  // namespace gvom::summary
+}  // namespace gvom::tools

@@ -1,0 +1,133 @@
+#include "services/ingest/sensor_watch.hpp"
+
+namespace gvom::ingest {
+
+namespace {
+
+constexpr std::int64_t kLook_ns = 100'000'000;
+constexpr std::int64_t kSilence_ns = 500'000'000;
+constexpr std::int64_t kHold_ns = 1'000'000'000;
+constexpr double kFlood = 1.5;           // times the most that the sensor sends
+constexpr double kStrayPerSecond = 5;    // a stray packet is no fault
+constexpr double kLossPercent = 5;       // of columns
+constexpr double kMisplacedPercent = 2;  // of packets
+
+double percent(std::uint64_t part, std::uint64_t whole) {
+  return whole == 0 ? 0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole);
+}
+
+std::uint32_t bit(std::size_t fault) {
+  return std::uint32_t{1} << fault;
+}
+
+}  // namespace
+
+SensorWatch::SensorWatch(double most_packets_per_s, std::int64_t now_ns)
+    : most_packets_per_s_(most_packets_per_s), heard_ns_(now_ns), now_ns_(now_ns) {
+  looks_[looked_++].at_ns = now_ns;
+}
+
+void SensorWatch::update(const SourceCounters& counters, std::uint64_t overruns, std::int64_t now_ns) {
+  const Look& newest = looks_[(looked_ - 1) % kLooks];
+  if (most_packets_per_s_ <= 0 || now_ns - newest.at_ns < kLook_ns) return;
+  now_ns_ = now_ns;
+  if (counters.packets != newest.counters.packets) heard_ns_ = now_ns;
+  const Look oldest = looked_ < kLooks ? looks_[0] : looks_[looked_ % kLooks];
+  const Look now{counters, overruns, now_ns};
+  looks_[looked_++ % kLooks] = now;
+  judge(oldest, now);
+  faults_ = 0;
+  for (std::size_t i = 0; i < seen_.size(); ++i)
+    if (seen_[i].at_ns != 0 && now_ns - seen_[i].at_ns < kHold_ns) faults_ |= bit(i);
+}
+
+void SensorWatch::see(SensorFault fault, double value) {
+  seen_[static_cast<std::size_t>(fault)] = {value, now_ns_};
+}
+
+void SensorWatch::judge(const Look& before, const Look& now) {
+  const double per_s = 1e9 / static_cast<double>(now.at_ns - before.at_ns);
+  const auto rate = [&](std::uint64_t SourceCounters::*counter) {
+    return static_cast<double>(now.counters.*counter - before.counters.*counter) * per_s;
+  };
+  const std::int64_t silent_ns = now.at_ns - heard_ns_;
+  seen_[static_cast<std::size_t>(SensorFault::silence)] = {};
+  if (silent_ns >= kSilence_ns) see(SensorFault::silence, static_cast<double>(silent_ns) * 1e-9);
+  if (const double packets = rate(&SourceCounters::packets); packets > kFlood * most_packets_per_s_)
+    see(SensorFault::flood, packets);
+  if (const double second = rate(&SourceCounters::second_sensor_packets); second > kStrayPerSecond) {
+    second_ipv4_ = now.counters.second_ipv4;
+    see(SensorFault::second_sensor, second);
+  }
+  if (const double lost = rate(&SourceCounters::kernel_drops); lost > 0) see(SensorFault::queue_loss, lost);
+  const double overruns = static_cast<double>(now.overruns - before.overruns) * per_s;
+  if (overruns > 0) see(SensorFault::overrun, overruns);
+  judge_foreign(before, now, per_s);
+  judge_shares(before.counters, now.counters);
+}
+
+void SensorWatch::judge_foreign(const Look& before, const Look& now, double per_s) {
+  const std::uint64_t foreign = now.counters.foreign_packets - before.counters.foreign_packets;
+  const double rate = static_cast<double>(foreign) * per_s;
+  if (rate <= kStrayPerSecond) return;
+  const std::uint64_t changes = now.counters.foreign_size_changes - before.counters.foreign_size_changes;
+  foreign_size_ = now.counters.foreign_size;
+  see(changes * 10 > foreign ? SensorFault::garbage : SensorFault::other_model, rate);
+}
+
+void SensorWatch::judge_shares(const SourceCounters& before, const SourceCounters& now) {
+  const auto more = [&](std::uint64_t SourceCounters::*counter) { return now.*counter - before.*counter; };
+  const std::uint64_t packets = more(&SourceCounters::packets);
+  const std::uint64_t columns = more(&SourceCounters::columns);
+  const auto judge_share = [this](SensorFault fault, double share, double most) {
+    if (share > most) see(fault, share);
+  };
+  const std::uint64_t missing = more(&SourceCounters::missing_columns);
+  judge_share(SensorFault::loss, percent(missing, columns + missing), kLossPercent);
+  const std::uint64_t invalid = more(&SourceCounters::invalid_columns);
+  judge_share(SensorFault::invalid, percent(invalid, columns + invalid), kLossPercent);
+  judge_share(SensorFault::duplicates, percent(more(&SourceCounters::duplicate_packets), packets),
+              kMisplacedPercent);
+  const std::uint64_t misplaced =
+      more(&SourceCounters::out_of_order_packets) + more(&SourceCounters::late_packets);
+  judge_share(SensorFault::disorder, percent(misplaced, packets), kMisplacedPercent);
+}
+
+void SensorWatch::describe(services::Words& words) const {
+  for (std::size_t i = 0; i < seen_.size(); ++i)
+    if ((faults_ & bit(i)) != 0) tell(static_cast<SensorFault>(i), seen_[i].value, words);
+}
+
+void SensorWatch::tell(SensorFault fault, double value, services::Words& words) const {
+  const auto& from = second_ipv4_;
+  switch (fault) {
+    case SensorFault::silence:
+      return words.add("no packets for %.1f s", value);
+    case SensorFault::flood:
+      return words.add("flood: %.0f packets/s, a sensor sends at most %.0f", value, most_packets_per_s_);
+    case SensorFault::second_sensor:
+      return words.add("packets of a second sensor at %u.%u.%u.%u: %.0f/s not used", from[0], from[1],
+                       from[2], from[3], value);
+    case SensorFault::other_model:
+      return words.add("packets of another model, %llu bytes each: %.0f/s not used",
+                       static_cast<unsigned long long>(foreign_size_), value);
+    case SensorFault::garbage:
+      return words.add("garbage: %.0f packets/s not used", value);
+    case SensorFault::loss:
+      return words.add("%.0f %% of packets lost", value);
+    case SensorFault::queue_loss:
+      return words.add("%.0f packets/s lost in the socket's queue", value);
+    case SensorFault::duplicates:
+      return words.add("%.0f %% of packets came again", value);
+    case SensorFault::disorder:
+      return words.add("%.0f %% of packets out of order", value);
+    case SensorFault::invalid:
+      return words.add("%.0f %% of columns invalid", value);
+    case SensorFault::overrun:
+      return words.add("%.0f sweeps/s dropped, waiting to be mapped", value);
+    case SensorFault::count:
+      return;
+  }
+}
+
+}  // namespace gvom::ingest

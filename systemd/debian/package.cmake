@@ -1,0 +1,22 @@
+# `cpack`, or the target `package`: gvom as a Debian package. Its own programs' needs are found by dpkg-shlibdeps.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME gvom)
+set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
+set(CPACK_PACKAGE_CONTACT "gvom maintainers <gvom@localhost.localdomain>")
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "real-time voxel maps from a vehicle's lidars")
+set(CPACK_DEBIAN_PACKAGE_DESCRIPTION
+  "gvom turns the packets of lidars into voxel maps, fuses them, and publishes\nlayers that a planner of an off-road vehicle drives by: ground, slope,\nobstacles, holes, clearance, visibility and cost. This package holds the\nservices with their systemd units, the tools, and what a planner links.")
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "systemd, fonts-dejavu-core")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libiceoryx-posh-dev, libexpected-dev")
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+foreach(file conffiles postinst prerm postrm)
+  list(APPEND CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${CMAKE_CURRENT_LIST_DIR}/${file})
+endforeach()
+set(CPACK_STRIP_FILES ON)
+# To /usr and /etc, whatever the build's own prefix.
+set(CPACK_SET_DESTDIR ON)
+set(CPACK_INSTALL_PREFIX /usr)
+include(CPack)

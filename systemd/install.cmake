@@ -1,0 +1,21 @@
+# Runs when gvom is installed: CMAKE_INSTALL_PREFIX is known only then.
+set(prefix ${CMAKE_INSTALL_PREFIX})
+if(NOT prefix MATCHES "^/usr(/local)?$")
+  message(STATUS "Not installed: the systemd units, which are looked for below /usr and /usr/local only")
+  return()
+endif()
+set(bin ${prefix}/bin)
+set(etc ${prefix}/etc)
+if(prefix STREQUAL "/usr")
+  set(etc /etc)
+endif()
+
+file(GLOB units RELATIVE ${GVOM_SYSTEMD_SOURCE} ${GVOM_SYSTEMD_SOURCE}/*.target ${GVOM_SYSTEMD_SOURCE}/*.service
+  ${GVOM_SYSTEMD_SOURCE}/*.service.d/*.conf)
+foreach(unit ${units})
+  set(to $ENV{DESTDIR}${prefix}/lib/systemd/system/${unit})
+  message(STATUS "Installing: ${to}")
+  configure_file(${GVOM_SYSTEMD_SOURCE}/${unit} ${to} @ONLY FILE_PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ)
+endforeach()
+file(INSTALL ${GVOM_SYSTEMD_SOURCE}/sysusers.d ${GVOM_SYSTEMD_SOURCE}/tmpfiles.d DESTINATION ${prefix}/lib)
+file(INSTALL ${GVOM_SYSTEMD_SOURCE}/../config/vehicles/two_lidars.yaml DESTINATION ${etc}/gvom RENAME vehicle.yaml)

@@ -1,0 +1,194 @@
+// What gvomctl makes of what it hears.
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "tests/ctl/vehicle_at.hpp"
+#include "tools/ctl/render.hpp"
+
+using namespace gvom;
+using namespace gvom::test;
+using Catch::Matchers::Contains;
+using ctl::ProcessState;
+using ipc::HealthState;
+
+TEST_CASE("a vehicle at which all is well has no problem, and every process is in its place") {
+  const ctl::Snapshot snapshot = VehicleAt().snapshot();
+  CHECK(snapshot.problems == std::vector<std::string>{});
+  REQUIRE(snapshot.processes.size() == 5);
+  CHECK(snapshot.processes[0].name == "gvom-roudi");
+  CHECK(snapshot.processes[1].name == "gvom-odometry");
+  CHECK(snapshot.processes[4].name == "gvom-ingest-rear");
+  for (const auto& view : snapshot.processes) CHECK(view.state == ProcessState::ok);
+}
+
+TEST_CASE("ages are those of the last Health, and of the packets in the layers") {
+  VehicleAt vehicle;
+  ipc::Layers layers = layers_at(kNow_ns - 50'000'000);
+  layers.lidars[1].newest_stamp_ns -= kSecond_ns / 4;
+  vehicle.observed.add(layers);
+  const ctl::Snapshot snapshot = vehicle.snapshot();
+  CHECK(process(snapshot, "gvom-fusion").health_age_s == Approx(0.5));
+  CHECK(process(snapshot, "gvom-fusion").data_age_s == Approx(0.08));
+  CHECK(process(snapshot, "gvom-ingest-front").data_age_s == Approx(0.08));
+  CHECK(process(snapshot, "gvom-ingest-rear").data_age_s == Approx(0.33));
+  CHECK(!process(snapshot, "gvom-odometry").data_age_s);
+  CHECK(snapshot.layers->age_s == Approx(0.05));
+  CHECK(snapshot.odometry->age_s == Approx(0.0));
+  CHECK(snapshot.odometry->rate_hz == Approx(20.0));
+}
+
+TEST_CASE("drops are those that are not 0, with their rate between two Healths of one process") {
+  VehicleAt vehicle;
+  auto drops = process(vehicle.snapshot(), "gvom-fusion").drops;
+  REQUIRE(drops.size() == 1);
+  CHECK(drops[0].reason == "overrun");
+  CHECK(drops[0].count == 95);
+  CHECK(drops[0].per_s == Approx(10.0));
+
+  ipc::Health restarted = health_of("gvom-fusion", HealthState::ok, kNow_ns, {{"drop_overrun", 5}});
+  restarted.pid = kPid + 1;
+  vehicle.observed.add(restarted);
+  drops = process(vehicle.snapshot(), "gvom-fusion").drops;
+  REQUIRE(drops.size() == 1);
+  CHECK(drops[0].count == 5);
+  CHECK(!drops[0].per_s);
+}
+
+TEST_CASE("a process's own trouble is told in its words") {
+  VehicleAt vehicle;
+  ipc::Health health = health_of("gvom-ingest-rear", HealthState::degraded, kNow_ns);
+  ipc::set_text(health.reason, "no sweeps");
+  vehicle.observed.add(health);
+  CHECK(vehicle.snapshot().problems == std::vector<std::string>{"gvom-ingest-rear is degraded: no sweeps"});
+}
+
+TEST_CASE("a process is missing if it was never heard or has ended, and silent if it is there") {
+  VehicleAt vehicle;
+  vehicle.expected.processes.emplace_back("gvom-ingest-left");
+  CHECK(vehicle.snapshot().problems ==
+        std::vector<std::string>{"gvom-ingest-left is missing: nothing was heard of it"});
+  CHECK(!process(vehicle.snapshot(), "gvom-ingest-left").pid);
+
+  ipc::Health old = health_of("gvom-ingest-left", HealthState::ok, kNow_ns - 4 * kSecond_ns);
+  old.pid = 99;
+  vehicle.observed.add(old);
+  CHECK(process(vehicle.snapshot(), "gvom-ingest-left").state == ProcessState::silent);
+  vehicle.ended_pid = 99;
+  CHECK(process(vehicle.snapshot(), "gvom-ingest-left").state == ProcessState::missing);
+  CHECK_THAT(process(vehicle.snapshot(), "gvom-ingest-left").reason, Contains("process 99 has ended"));
+}
+
+TEST_CASE("who is not expected is shown, unless it has ended well") {
+  VehicleAt vehicle;
+  vehicle.observed.add(health_of("gvom-other", HealthState::ok, kNow_ns));
+  CHECK(vehicle.snapshot().processes.size() == 6);
+  vehicle.observed.add(health_of("gvom-other", HealthState::stopping, kNow_ns));
+  vehicle.ended_pid = kPid;
+  CHECK(vehicle.snapshot().processes.size() == 5);
+}
+
+TEST_CASE("old layers, missing lidars, old odometry and an empty pool are problems") {
+  VehicleAt vehicle;
+  ipc::Layers layers = layers_at(kNow_ns - 2 * kSecond_ns);
+  layers.lidars[0].missing = 1;
+  vehicle.observed.add(layers);
+  vehicle.observed.add(std::vector<ipc::PoolUse>{{1000, 100, 100, 0}});
+  ipc::MessageHeader odometry{};
+  odometry.sequence = 1;
+  vehicle.observed.add(odometry, kNow_ns - 5 * kSecond_ns);
+  CHECK(vehicle.snapshot().problems ==
+        std::vector<std::string>{"the newest layers are 2.0 s old", "lidar front is missing in the layers",
+                                 "the newest odometry is 5.0 s old",
+                                 "the pool of 100 chunks of 1000 bytes is empty"});
+}
+
+TEST_CASE("a broker that is absent, hung or does not let us in is the only problem: the rest is unknown") {
+  VehicleAt vehicle;
+  vehicle.observed = {};
+  const auto only_problem = [&] {
+    const ctl::Snapshot snapshot = vehicle.snapshot();
+    CHECK(process(snapshot, "gvom-fusion").state == ProcessState::unknown);
+    REQUIRE(snapshot.problems.size() == 1);
+    return snapshot.problems.front();
+  };
+  vehicle.broker = {ctl::BrokerState::absent, false, std::nullopt, "no broker answers"};
+  CHECK(only_problem() == "gvom-roudi is missing: no broker answers");
+  vehicle.broker.state = ctl::BrokerState::hung;
+  CHECK_THAT(only_problem(), Contains("gvom-roudi is hung"));
+  vehicle.broker = {ctl::BrokerState::up, false, 3, "run it in the broker's group"};
+  CHECK(only_problem() == "the bus cannot be joined: run it in the broker's group");
+}
+
+TEST_CASE("a process that was heard before the bus fell silent is unknown, unless it has ended") {
+  VehicleAt vehicle;
+  vehicle.expected.processes = {"gvom-late"};
+  vehicle.observed = {};
+  vehicle.observed.add(health_of("gvom-late", HealthState::ok, kNow_ns - 5 * kSecond_ns));
+  vehicle.broker.state = ctl::BrokerState::hung;
+  CHECK(process(vehicle.snapshot(), "gvom-late").state == ProcessState::unknown);
+  vehicle.ended_pid = kPid;
+  CHECK(process(vehicle.snapshot(), "gvom-late").state == ProcessState::missing);
+}
+
+TEST_CASE("a look is complete when everything was heard twice") {
+  const VehicleAt vehicle;
+  CHECK(ctl::is_complete(vehicle.observed, vehicle.expected));
+  CHECK(!ctl::is_complete(vehicle.observed, {}));  // who knows what else will be heard
+  ctl::Expected more = vehicle.expected;
+  more.processes.emplace_back("gvom-ingest-left");
+  CHECK(!ctl::is_complete(vehicle.observed, more));
+}
+
+TEST_CASE("an odometry that begins anew has a rate of its own") {
+  ctl::Observed observed;
+  ipc::MessageHeader odometry{};
+  for (int i = 0; i <= 100; ++i) {
+    odometry.sequence = 1000 + static_cast<std::uint64_t>(i);
+    observed.add(odometry, i * kSecond_ns / 50);
+  }
+  CHECK(observed.odometry()->rate_hz == Approx(50.0));
+  odometry.sequence = 1;
+  observed.add(odometry, 3 * kSecond_ns);
+  CHECK(!observed.odometry()->rate_hz);
+}
+
+TEST_CASE("the table shows what is wrong first, and every figure") {
+  VehicleAt vehicle;
+  const std::string well = to_table(vehicle.snapshot());
+  CHECK_THAT(well, Contains("two_lidars: all is well\n"));
+  CHECK_THAT(
+      well,
+      Contains("gvom-fusion             ok           10.0/s     0.5 s    0.08 s         2     50 MB\n"));
+  CHECK_THAT(well, Contains("    dropped: 95 overrun (+10/s)\n") && !Contains("no_chunk"));
+  CHECK_THAT(well, Contains("layers: 0.05 s old, packets 0.08 s, 8 maps in the window, missing: no lidar\n"));
+  CHECK_THAT(well, Contains("odometry: 0.00 s old, 20.0/s\n"));
+  CHECK_THAT(well, Contains("2000                            10        3             2\n"));
+  vehicle.expected.processes.emplace_back("gvom-ingest-left");
+  CHECK_THAT(to_table(vehicle.snapshot()),
+             Contains("two_lidars: 1 problem\n  ! gvom-ingest-left is missing: nothing was heard of it\n"));
+}
+
+TEST_CASE("JSON has every figure, and null for what is not known") {
+  const auto json = nlohmann::json::parse(to_json(VehicleAt().snapshot()));
+  CHECK(json["vehicle"] == "two_lidars");
+  CHECK(json["ok"] == true);
+  CHECK(json["broker"] == "up");
+  const auto& fusion = json["processes"][2];
+  CHECK(fusion["name"] == "gvom-fusion");
+  CHECK(fusion["state"] == "ok");
+  CHECK(fusion["restarts"] == 2);
+  CHECK(fusion["memory_bytes"] == 50'000'000);
+  CHECK(fusion["counters"]["sweeps_in"] == 95);
+  CHECK(fusion["drops"]["overrun"]["count"] == 95);
+  CHECK(fusion["drops"]["overrun"]["per_s"].get<double>() == Approx(10.0));
+  CHECK(json["processes"][0]["rate_hz"].is_null());
+  CHECK(json["layers"]["missing"].empty());
+  CHECK(json["layers"]["lidars"]["rear"]["maps_in_window"] == 4);
+  CHECK(json["pools"][1]["min_free"] == 2);
+  VehicleAt nothing_heard;
+  nothing_heard.observed = {};
+  const auto empty = nlohmann::json::parse(to_json(nothing_heard.snapshot()));
+  CHECK(empty["ok"] == false);
+  CHECK(empty["layers"].is_null());
+  CHECK(empty["odometry"].is_null());
+}

@@ -1,0 +1,245 @@
+#include "tests/faults/sensor.hpp"
+
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <random>
+
+#include "ipc/planner.hpp"
+
+namespace gvom::test {
+
+namespace {
+
+using namespace std::chrono_literals;
+using ipc::test::Child;
+
+constexpr int kPackets = 16;  // a frame
+constexpr std::int64_t kFrame_ns = 100'000'000;
+constexpr std::size_t kPacketHeader = 32;
+constexpr std::size_t kColumnHeader = 12;
+constexpr std::size_t kPixel = 12;
+
+sockaddr_in loopback(std::uint16_t port, std::uint32_t host) {
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(port);
+  address.sin_addr.s_addr = htonl(0x7F000000u + host);
+  return address;
+}
+
+/// Datagrams from 127.0.0.HOST.
+class Sender {
+ public:
+  Sender(std::uint16_t port, std::uint32_t host)
+      : fd_(::socket(AF_INET, SOCK_DGRAM, 0)), to_(loopback(port, 1)) {
+    const sockaddr_in from = loopback(0, host);
+    EXPECT(::bind(fd_, reinterpret_cast<const sockaddr*>(&from), sizeof from) == 0);
+  }
+  void send(const ByteVector& bytes) const {
+    ::sendto(fd_, bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr*>(&to_), sizeof to_);
+  }
+
+ private:
+  int fd_;
+  sockaddr_in to_;
+};
+
+ByteVector packet_of(const OusterSensor& sensor, std::int64_t frame, int index, std::uint32_t range_mm,
+                     std::uint8_t serial) {
+  const int per_packet = sensor.columns_per_packet;
+  ByteVector packet = plain_packet(sensor, static_cast<int>(frame & 0xFFFF), index * per_packet, range_mm);
+  packet[7] = serial;
+  const std::size_t column_size = kColumnHeader + kPixel * static_cast<std::size_t>(sensor.beams);
+  for (int i = 0; i < per_packet; ++i) {
+    const std::int64_t time_ns =
+        kDriveBegin_ns + frame * kFrame_ns + (index * per_packet + i) * kFrame_ns / sensor.columns;
+    std::memcpy(packet.data() + kPacketHeader + static_cast<std::size_t>(i) * column_size, &time_ns,
+                sizeof time_ns);
+  }
+  return packet;
+}
+
+/// Sends one packet in the way that `mode` says.
+class Faulty {
+ public:
+  explicit Faulty(std::uint16_t port) : own_(port, 1), other_(port, 2) {}
+
+  void send(SensorMode mode, std::int64_t frame, int index) {
+    const ByteVector packet = packet_of(sensor_, frame, index, 8000, 1);
+    const auto second = [&] { return packet_of(sensor_, frame, index, 20000, 2); };
+    switch (mode) {
+      case SensorMode::well:
+        return own_.send(packet);
+      case SensorMode::silent:
+        return;
+      case SensorMode::loss:
+        if (random_() % 10 >= 3) own_.send(packet);
+        return;
+      case SensorMode::duplicates:
+        return send_often(packet, 2);
+      case SensorMode::disorder:
+        if (index % 2 == 0) {
+          held_ = packet;
+          return;
+        }
+        own_.send(packet);
+        return own_.send(held_);
+      case SensorMode::second_sensor:
+        own_.send(packet);
+        return other_.send(second());
+      case SensorMode::second_alone:
+        return other_.send(second());
+      case SensorMode::second_serial:
+        own_.send(packet);
+        return own_.send(second());
+      case SensorMode::garbage:
+        own_.send(packet);
+        for (int i = 0; i < 10; ++i) own_.send(garbage());
+        return;
+      case SensorMode::flood:
+        return send_often(packet, 10);
+      case SensorMode::other_model:
+        return own_.send(packet_of(other_sensor(), frame, index, 20000, 3));
+    }
+  }
+
+ private:
+  void send_often(const ByteVector& packet, int times) const {
+    for (int i = 0; i < times; ++i) own_.send(packet);
+  }
+  ByteVector garbage() {
+    ByteVector datagram(random_() % 2000);
+    for (auto& byte : datagram) byte = static_cast<std::uint8_t>(random_());
+    return datagram;
+  }
+  static OusterSensor other_sensor() {
+    OusterSensor sensor = lab_sensor();
+    sensor.beams = 4;
+    return sensor;
+  }
+
+  OusterSensor sensor_ = lab_sensor();
+  Sender own_;
+  Sender other_;
+  ByteVector held_;
+  std::minstd_rand random_{1};
+};
+
+std::int64_t drive_now_ns(const Board& board) {
+  return ipc::monotonic_ns() - board.begin_ns;
+}
+
+void sleep_until(const Board& board, std::int64_t drive_ns) {
+  const std::int64_t left_ns = drive_ns - drive_now_ns(board);
+  if (left_ns > 0) std::this_thread::sleep_for(std::chrono::nanoseconds(left_ns));
+}
+
+/// The poses of one mode.
+class Poses {
+ public:
+  explicit Poses(const Board& board)
+      : board_(board), client_(ipc::PlannerClient::connect("lab-odometry").value()) {}
+
+  void publish(OdometryMode mode) {
+    const std::int64_t now_ns = drive_now_ns(board_);
+    if (mode == OdometryMode::silent) return;
+    const double x_m = mode == OdometryMode::moved ? 5 : 0;
+    const bool broken = mode == OdometryMode::not_finite && ++count_ % 2 == 0;
+    send(broken ? std::numeric_limits<double>::quiet_NaN() : x_m, now_ns);
+    if (mode == OdometryMode::backwards) send(x_m, now_ns - 300'000'000);
+  }
+
+ private:
+  void send(double x_m, std::int64_t drive_ns) {
+    ipc::Odometry odometry{};
+    odometry.position_m[0] = x_m;
+    odometry.orientation_xyzw[3] = 1;
+    EXPECT(client_.publish_odometry(odometry, kDriveBegin_ns + drive_ns, 1));
+  }
+
+  const Board& board_;
+  ipc::PlannerClient client_;
+  int count_ = 0;
+};
+
+double farthest_hit_m(const ipc::BrickMapSample& map) {
+  double farthest_m = 0;
+  for (const Voxel& voxel : observed_voxels(map)) {
+    if (voxel.hits == 0) continue;
+    const double x_m = (voxel.x + 0.5) * map.header().resolution_m[0] - map.header().base_position_m[0];
+    const double y_m = (voxel.y + 0.5) * map.header().resolution_m[1] - map.header().base_position_m[1];
+    farthest_m = std::max(farthest_m, std::hypot(x_m, y_m));
+  }
+  return farthest_m;
+}
+
+}  // namespace
+
+OusterSensor lab_sensor() {
+  OusterSensor sensor;
+  sensor.profile = "RNG19_RFL8_SIG16_NIR16";
+  sensor.altitudes = "[-6, -8, -10, -12, -14, -16, -18, -20]";
+  sensor.azimuths = "[0, 0, 0, 0, 0, 0, 0, 0]";
+  sensor.window = "[0, 63]";
+  sensor.beams = 8;
+  sensor.columns = 64;
+  return sensor;
+}
+
+void live_as_sensor(std::uint16_t port, const std::atomic<SensorMode>& mode, const Board& board) {
+  Faulty sensor(port);
+  for (std::int64_t frame = 0;; ++frame) {
+    for (int index = 0; index < kPackets; ++index) {
+      sleep_until(board, frame * kFrame_ns + (index + 1) * kFrame_ns / kPackets);
+      sensor.send(mode, frame, index);
+    }
+  }
+}
+
+void live_as_odometry(const Board& board) {
+  Poses poses(board);
+  while (true) {
+    const OdometryMode mode = board.odometry;
+    poses.publish(mode);
+    std::chrono::milliseconds period = 50ms;
+    if (mode == OdometryMode::fast) period = 5ms;
+    if (mode == OdometryMode::slow) period = 1000ms;
+    std::this_thread::sleep_for(period);
+  }
+}
+
+void live_as_judge(Board& board) {
+  auto runtime = ipc::Runtime::connect("lab-judge", 5s).value();
+  auto voxels = ipc::BrickMapSubscriber::voxel_map(runtime).value();
+  auto waiter = ipc::Waiter::create(runtime).value();
+  EXPECT(waiter.add(voxels));
+  while (true) {
+    waiter.wait(100ms);
+    while (const auto map = voxels.take()) {
+      const double farthest_m = farthest_hit_m(*map);
+      board.farthest_m = farthest_m;
+      if (farthest_m > kFarthest_m) ++board.wrong_maps;
+      const std::int64_t drive_ns = map->header().header.stamp_ns - kDriveBegin_ns;
+      if (drive_ns > board.gap_begin_ns && drive_ns < board.gap_end_ns) ++board.maps_in_gap;
+      ++board.maps;
+    }
+  }
+}
+
+std::uint16_t free_port() {
+  const int fd = ::socket(AF_INET, SOCK_DGRAM, 0);
+  sockaddr_in address = loopback(0, 1);
+  socklen_t size = sizeof address;
+  ::bind(fd, reinterpret_cast<sockaddr*>(&address), size);
+  ::getsockname(fd, reinterpret_cast<sockaddr*>(&address), &size);
+  ::close(fd);
+  return ntohs(address.sin_port);
+}
+
+}  // namespace gvom::test

@@ -1,0 +1,26 @@
+// The sensors and the odometry of the lab: what their processes do.
+#pragma once
+
+#include <cstdint>
+
+#include "tests/faults/lab.hpp"
+
+namespace gvom::test {
+
+inline constexpr std::int64_t kDriveBegin_ns = 1'000'000'000'000;  // of the sensors' clock
+
+/// 8 beams that look down, 64 columns a turn, 10 turns a second: 160 packets a second.
+OusterSensor lab_sensor();
+
+/// Sends to the port as `mode` says, until it is killed.
+[[noreturn]] void live_as_sensor(std::uint16_t port, const std::atomic<SensorMode>& mode, const Board& board);
+
+/// Publishes the pose of the vehicle, which stands still, as the board says.
+[[noreturn]] void live_as_odometry(const Board& board);
+
+/// Looks at every fused map.
+[[noreturn]] void live_as_judge(Board& board);
+
+std::uint16_t free_port();
+
+}  // namespace gvom::test

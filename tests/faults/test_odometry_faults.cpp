@@ -1,0 +1,87 @@
+// Odometry that fails under live sensors: no map of it is wrong.
+#include <catch2/catch.hpp>
+
+#include "tests/faults/lab.hpp"
+
+using namespace gvom::test;
+using gvom::ipc::test::eventually;
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr char kFront[] = "gvom-ingest-front";
+
+void check(Lab& lab, const char* name, OdometryMode mode, const char* words) {
+  lab.check_fault(
+      name, kFront, words, [&] { lab.board->odometry = mode; },
+      [&] { lab.board->odometry = OdometryMode::well; });
+  CHECK(lab.board->wrong_maps == 0);
+}
+
+std::uint64_t dropped_sweeps(const Lab& lab) {
+  return lab.observer->counter(kFront, "drop_odometry_gap") + lab.observer->counter(kFront, "drop_overrun");
+}
+
+}  // namespace
+
+TEST_CASE("in a gap nothing is mapped, before and after it everything") {
+  Lab lab;
+  for (int round = 0; round < repeats(1); ++round) {
+    // The last sweep before the gap and the first after it reach into it.
+    lab.board->gap_begin_ns = lab.drive_ns() + 100'000'000;
+    const std::uint64_t dropped = dropped_sweeps(lab);
+    lab.check_fault(
+        "no odometry for 1.5 s", kFront, "no odometry for",
+        [&] {
+          lab.board->odometry = OdometryMode::silent;
+          std::this_thread::sleep_for(500ms);
+        },
+        [&] {
+          lab.board->gap_end_ns = lab.drive_ns() - 50'000'000;
+          lab.board->odometry = OdometryMode::well;
+        });
+    CHECK(eventually([&] { return dropped_sweeps(lab) >= dropped + 10; }));
+    CHECK(lab.observer->counter(kFront, "drop_odometry_gap") > 0);
+    CHECK(lab.layers_flow());
+    CHECK(lab.board->maps_in_gap == 0);
+  }
+  CHECK(lab.board->wrong_maps == 0);
+  lab.stop();
+}
+
+TEST_CASE("after a jump the map has nothing from before it") {
+  Lab lab;
+  for (int round = 0; round < repeats(2); ++round) {
+    const bool there = round % 2 == 0;
+    const auto jumps = static_cast<std::uint64_t>(round) + 1;
+    lab.check_fault(
+        there ? "odometry jumps by 5 m" : "odometry jumps back", kFront, "odometry jumped by 5.0 m",
+        [&] { lab.board->odometry = there ? OdometryMode::moved : OdometryMode::well; }, [] {});
+    CHECK(eventually([&] { return lab.observer->counter("gvom-fusion", "odometry_jumps") == jumps; }));
+    CHECK(lab.layers_flow());
+    CHECK(lab.observer->newest_layers().base_position_m[0] == (there ? 5 : 0));
+    CHECK(lab.board->wrong_maps == 0);
+  }
+  lab.stop();
+}
+
+TEST_CASE("poses that are none, or go back in time, or come ten times as often make no map wrong") {
+  Lab lab;
+  check(lab, "every other pose is NaN", OdometryMode::not_finite, "odometry is not a pose");
+  check(lab, "odometry goes back in time", OdometryMode::backwards, "odometry goes back in time");
+  CHECK(lab.observer->counter(kFront, "drop_odometry_gap") == 0);
+
+  lab.board->odometry = OdometryMode::fast;
+  CHECK(lab.layers_flow(40));
+  CHECK(lab.is_ok(kFront));
+  CHECK(lab.observer->counter(kFront, "odometry_lost") == 0);
+  report("odometry at 200 Hz", "nothing", 0, "");
+  CHECK(lab.board->wrong_maps == 0);
+  lab.stop();
+}
+
+TEST_CASE("with odometry at 1 Hz nothing is mapped, and Health says why") {
+  Lab lab;
+  check(lab, "odometry at 1 Hz", OdometryMode::slow, "gap of 1.0");
+  lab.stop();
+}

@@ -1,0 +1,105 @@
+// Planners that hang or die: neither fusion nor another planner notices.
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "ipc/planner.hpp"
+#include "tests/faults/lab.hpp"
+
+using namespace gvom::test;
+using gvom::ipc::PlannerClient;
+using gvom::ipc::test::Child;
+using gvom::ipc::test::eventually;
+using gvom::ipc::test::Step;
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr int kCrashers = 10;
+
+/// Takes layers for ever, two at a time; tells how many came and were lost.
+[[noreturn]] void live_as_planner(const std::string& name, std::atomic<std::uint64_t>* told) {
+  auto client = PlannerClient::connect(name).value();
+  std::optional<gvom::ipc::LayersSample> held;
+  while (true) {
+    auto layers = client.newest_layers(1s);
+    if (!layers) continue;
+    held = std::move(*layers);
+    if (told == nullptr) continue;
+    told[0] = client.counters().received;
+    told[1] = client.counters().lost;
+  }
+}
+
+[[noreturn]] void hang_with_layers(Step& holds) {
+  auto client = PlannerClient::connect("hangs").value();
+  const auto first = client.newest_layers(5s);
+  const auto second = client.newest_layers(5s);
+  EXPECT(first && second);
+  holds.reach(1);
+  while (true) ::raise(SIGSTOP);
+}
+
+/// Joins under the name of a planner that was killed and leaves well: what that one held comes back.
+void reclaim(const std::string& name) {
+  Child heir([&] { EXPECT(PlannerClient::connect(name)); });
+  CHECK(heir.wait() == 0);
+}
+
+std::vector<std::uint32_t> used_at_rest(Lab& lab) {
+  lab.board->front = lab.board->rear = SensorMode::silent;
+  std::this_thread::sleep_for(500ms);
+  const auto used = lab.observer->used_chunks();
+  lab.board->front = lab.board->rear = SensorMode::well;
+  return used;
+}
+
+}  // namespace
+
+TEST_CASE("a planner that hangs while it holds layers, and ten that crash again and again") {
+  Lab lab({"ipc.max_planners=16"});
+  auto* told = static_cast<std::atomic<std::uint64_t>*>(
+      ::mmap(nullptr, 4096, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0));
+  Child good([&] { live_as_planner("good", told); });
+  REQUIRE(eventually([&] { return told[0] > 10; }));
+  const auto before = used_at_rest(lab);
+  REQUIRE(lab.layers_flow(20));
+
+  Step holds;
+  Child hung([&] { hang_with_layers(holds); });
+  REQUIRE(holds.wait_for(1));
+  const std::uint64_t received = told[0];
+  const std::uint64_t lost = told[1];
+  const auto lost_since = [&] {
+    const std::uint64_t more = told[1] - lost;
+    return more == 0 ? std::string() : std::to_string(more) + " layers at another planner";
+  };
+  CHECK(eventually([&] { return told[0] >= received + 60; }));  // more than any queue holds
+  CHECK(lab.observer->drops("gvom-fusion") == "");
+  report("a planner hangs while it holds layers", "the others nothing", 0, lost_since());
+
+  std::minstd_rand random(1);
+  const auto name = [](int i) { return "crasher-" + std::to_string(i); };
+  std::vector<std::unique_ptr<Child>> crashers(kCrashers);
+  const int kills = kCrashers * repeats(3);
+  for (int kill = 0; kill < kills; ++kill) {
+    auto& crasher = crashers[static_cast<std::size_t>(kill % kCrashers)];
+    if (crasher) crasher->kill();
+    crasher = std::make_unique<Child>([&] { live_as_planner(name(kill % kCrashers), nullptr); });
+    std::this_thread::sleep_for(std::chrono::milliseconds(random() % 100));
+  }
+  for (auto& crasher : crashers) crasher->kill();
+  CHECK(lab.layers_flow(20));
+  CHECK(lab.observer->drops("gvom-fusion") == "");
+  report("ten planners crash, " + std::to_string(kills) + " times", "the others nothing", 0, lost_since());
+
+  hung.kill();
+  reclaim("hangs");
+  for (int i = 0; i < kCrashers; ++i) reclaim(name(i));
+  const auto after = used_at_rest(lab);
+  REQUIRE(after.size() == before.size());
+  for (std::size_t pool = 0; pool < after.size(); ++pool) {
+    INFO("pool " << pool << ": " << before[pool] << " chunks before, " << after[pool] << " after");
+    CHECK(after[pool] <= before[pool] + 2);
+  }
+  lab.stop();
+}

@@ -1,0 +1,160 @@
+// What is said of a live sensor, from counters alone.
+#include <catch2/catch.hpp>
+
+#include <string>
+
+#include "services/ingest/sensor_watch.hpp"
+
+using namespace gvom;
+using ingest::SensorWatch;
+using ingest::SourceCounters;
+
+namespace {
+
+constexpr std::int64_t kTenth_ns = 100'000'000;
+
+/// A sensor of 640 packets and 10 sweeps of 1024 columns a second; 1280 packets at most.
+class Sensor {
+ public:
+  /// A tenth of a second; `change` says what is not as it should be in it.
+  template <class Change>
+  void live(int tenths, Change change) {
+    for (int i = 0; i < tenths; ++i) {
+      counters_.packets += 64;
+      counters_.columns += 1024;
+      change(counters_);
+      now_ns_ += kTenth_ns;
+      watch_.update(counters_, overruns_, now_ns_);
+    }
+  }
+  void live(int tenths) {
+    live(tenths, [](SourceCounters&) {});
+  }
+  void overrun() { ++overruns_; }
+  [[nodiscard]] std::string says() const {
+    services::Words words;
+    watch_.describe(words);
+    CHECK(words.empty() == (watch_.faults() == 0));
+    return std::string(words.text());
+  }
+
+ private:
+  SourceCounters counters_;
+  std::uint64_t overruns_ = 0;
+  std::int64_t now_ns_ = 1'000'000'000;
+  SensorWatch watch_{1280, now_ns_};
+};
+
+/// Told within half a second, until a second after the last half-second with it.
+template <class Change>
+void check_told(const std::string& words, Change change) {
+  Sensor sensor;
+  sensor.live(20);
+  CHECK(sensor.says().empty());
+  sensor.live(5, change);
+  CHECK(sensor.says() == words);
+  sensor.live(13);
+  CHECK(!sensor.says().empty());
+  sensor.live(1);
+  CHECK(sensor.says().empty());
+}
+
+}  // namespace
+
+TEST_CASE("silence is told after half a second, for how long, and no longer than it lasts") {
+  Sensor sensor;
+  const auto silent = [](SourceCounters& counters) {
+    counters.packets -= 64;
+    counters.columns -= 1024;
+  };
+  sensor.live(10);
+  sensor.live(4, silent);
+  CHECK(sensor.says().empty());
+  sensor.live(1, silent);
+  CHECK(sensor.says() == "no packets for 0.5 s");
+  sensor.live(25, silent);
+  CHECK(sensor.says() == "no packets for 3.0 s");
+  sensor.live(1);
+  CHECK(sensor.says().empty());
+}
+
+TEST_CASE("a sensor that never sent is silent") {
+  SensorWatch watch(1280, 1'000'000'000);
+  watch.update({}, 0, 3'000'000'000);
+  services::Words words;
+  watch.describe(words);
+  CHECK(words.text() == "no packets for 2.0 s");
+}
+
+TEST_CASE("each fault is told in words and numbers") {
+  check_told("31 % of packets lost", [](SourceCounters& counters) {
+    counters.columns -= 317;
+    counters.missing_columns += 317;
+  });
+  check_told("50 % of packets came again", [](SourceCounters& counters) {
+    counters.packets += 64;
+    counters.duplicate_packets += 64;
+  });
+  check_told("25 % of packets out of order", [](SourceCounters& counters) {
+    counters.out_of_order_packets += 12;
+    counters.late_packets += 4;
+  });
+  check_told("packets of a second sensor at 127.0.0.2: 120/s not used", [](SourceCounters& counters) {
+    counters.packets += 12;
+    counters.second_sensor_packets += 12;
+    counters.second_ipv4 = {127, 0, 0, 2};
+  });
+  check_told("packets of another model, 1206 bytes each: 600/s not used", [](SourceCounters& counters) {
+    counters.packets += 60;
+    counters.foreign_packets += 60;
+    counters.foreign_size = 1206;
+  });
+  check_told("garbage: 600 packets/s not used", [](SourceCounters& counters) {
+    counters.packets += 60;
+    counters.foreign_packets += 60;
+    counters.foreign_size_changes += 59;
+  });
+  check_told("70 packets/s lost in the socket's queue",
+             [](SourceCounters& counters) { counters.kernel_drops += 7; });
+  check_told("50 % of columns invalid", [](SourceCounters& counters) {
+    counters.columns -= 512;
+    counters.invalid_columns += 512;
+  });
+}
+
+TEST_CASE("a flood is more than a sensor can send, and names what it consists of") {
+  Sensor sensor;
+  sensor.live(20);
+  sensor.live(6, [](SourceCounters& counters) {
+    counters.packets += 9 * 64;
+    counters.duplicate_packets += 9 * 64;
+  });
+  CHECK(sensor.says() == "flood: 6400 packets/s, a sensor sends at most 1280; 90 % of packets came again");
+}
+
+TEST_CASE("sweeps that the loop was too slow for") {
+  Sensor sensor;
+  sensor.live(10);
+  sensor.overrun();
+  sensor.live(5);
+  CHECK(sensor.says() == "2 sweeps/s dropped, waiting to be mapped");
+}
+
+TEST_CASE("a stray packet, a few lost columns and what comes once are no faults") {
+  Sensor sensor;
+  sensor.live(10);
+  sensor.live(1, [](SourceCounters& counters) {
+    counters.foreign_packets += 2;
+    counters.second_sensor_packets += 1;
+    counters.missing_columns += 16;
+    counters.duplicate_packets += 1;
+    counters.late_packets += 1;
+  });
+  CHECK(sensor.says().empty());
+}
+
+TEST_CASE("of a source without packets nothing is ever said") {
+  SensorWatch watch(0, 0);
+  for (std::int64_t now_ns = 0; now_ns < 5'000'000'000; now_ns += kTenth_ns) watch.update({}, 0, now_ns);
+  CHECK(watch.faults() == 0);
+}

@@ -1,0 +1,67 @@
+# What the tests under a systemd share. They run as root in under-systemd, with the package (GVOM_PACKAGE) and a
+# recording (GVOM_RECORDING), and end at the first thing that is not as it should be.
+# shellcheck shell=bash
+set -euo pipefail
+
+members=(gvom-roudi gvom-fusion gvom-ingest@front gvom-ingest@rear gvom-odometry)
+vehicle=/etc/gvom/vehicle.yaml
+
+say() { printf '%s\n' "== $*"; }
+
+fail() {
+  printf 'FAILED: %s\n' "$*"
+  systemctl --no-pager --lines 0 status 'gvom*' || true
+  journalctl --no-pager --lines 40 --output short-precise || true
+  exit 1
+}
+
+now_ms() { echo $(($(date +%s%N) / 1000000)); }
+
+eventually() {  # eventually SECONDS COMMAND...: until the command says yes
+  local end=$(($(now_ms) + $1 * 1000))
+  shift
+  until "$@"; do
+    (($(now_ms) < end)) || return 1
+    sleep 0.05
+  done
+}
+
+property() { systemctl show --property "$2" --value "$1"; }  # property UNIT NAME
+
+pid_of() { property "$1" MainPID; }
+
+are_active() { systemctl is-active --quiet "$@"; }
+
+install_package() {
+  [[ -e $GVOM_PACKAGE ]] || { echo "SKIPPED: there is no package to install"; exit 77; }
+  say "installing $(basename "$GVOM_PACKAGE")"
+  dpkg --install "$GVOM_PACKAGE" > /tmp/dpkg.log 2>&1 || { cat /tmp/dpkg.log; fail "dpkg"; }
+}
+
+use_recording() {  # and over and over again
+  cp "$GVOM_RECORDING"/* /var/lib/gvom/
+  mkdir -p /etc/systemd/system/gvom-odometry.service.d
+  printf '%s\n' '[Service]' Environment=ARGUMENTS=--loop > /etc/systemd/system/gvom-odometry.service.d/loop.conf
+  systemctl daemon-reload
+  systemctl --quiet enable gvom-ingest@front gvom-ingest@rear gvom-odometry
+}
+
+start_all() {
+  say "starting gvom.target"
+  systemctl start gvom.target
+  eventually 20 are_active "${members[@]}" || fail "not all units are active"
+}
+
+stop_all() {  # as the README says it: waits for all
+  systemctl stop gvom.target 'gvom-*' || fail "systemctl stop"
+  if pgrep --uid gvom --list-full; then fail "processes are left"; fi
+}
+
+layers_come() {  # who joins a broker that hangs or dies just then waits for a minute: hence timeout
+  rm -rf /tmp/pictures
+  timeout 3 runuser -u gvom -- gvom-snapshot --config "$vehicle" --once --out /tmp/pictures > /tmp/snapshot.log 2>&1
+}
+
+must_see_layers() {
+  eventually 10 layers_come || { cat /tmp/snapshot.log; fail "no layers came: $*"; }
+}

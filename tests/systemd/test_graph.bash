@@ -1,0 +1,110 @@
+#!/usr/bin/env bash
+# A fresh system: the package, its README's steps, layers; each process killed; everything stopped.
+# shellcheck source=common.bash
+source "$(dirname "$0")/common.bash"
+
+check_install() {
+  [[ $(systemctl is-enabled gvom.target || true) == disabled ]] || fail "the package enabled something"
+  id gvom > /dev/null || fail "no user gvom"
+  [[ $(stat --format %U:%G /var/lib/gvom) == gvom:gvom ]] || fail "/var/lib/gvom"
+  gvom-ingest --config "$vehicle" --lidar front --check || fail "$vehicle"
+}
+
+check_running() {
+  local unit
+  for unit in "${members[@]}"; do
+    [[ $(ps --no-headers --format user:32,group:32 --pid "$(pid_of "$unit")" | tr -s ' ') == "gvom gvom"* ]] || fail "$unit: its user"
+    [[ -n $(property "$unit" StatusText) ]] || fail "$unit: no status"
+    say "$unit: $(property "$unit" StatusText)"
+  done
+}
+
+metrics() {
+  exec 3<> /dev/tcp/127.0.0.1/9464
+  printf 'GET /metrics HTTP/1.0\r\n\r\n' >&3
+  cat <&3
+}
+
+check_tools() {
+  eventually 10 runuser -u gvom -- gvomctl status > /tmp/status.log 2>&1 || { cat /tmp/status.log; fail "gvomctl status"; }
+  tail -n 20 /tmp/status.log
+  systemctl start gvom-metrics || fail "gvom-metrics"
+  metrics 2> /dev/null | grep --quiet '^gvom_' || fail "no figures at 127.0.0.1:9464/metrics"
+}
+
+pids_without() {  # pids_without UNIT
+  for unit in "${members[@]}"; do [[ $unit == "$1" ]] || pid_of "$unit"; done | tr '\n' ' '
+}
+
+is_back() {  # is_back UNIT OLD_PID
+  local pid
+  pid=$(pid_of "$1")
+  ((pid != 0 && pid != $2)) && are_active "$1"
+}
+
+kill_one() {  # kill_one UNIT: it comes back, the others go on
+  local unit=$1 pid others broker start
+  pid=$(pid_of "$unit") others=$(pids_without "$unit") broker=$(property gvom-roudi NRestarts)
+  start=$(now_ms)
+  kill -KILL "$pid"
+  eventually 10 is_back "$unit" "$pid" || fail "$unit did not come back"
+  say "$unit: killed, ready again after $(($(now_ms) - start)) ms"
+  must_see_layers "after $unit was killed"
+  if (($(property gvom-roudi NRestarts) > broker)); then
+    # A process that dies while it publishes may leave the broker waiting: then all start again, as designed.
+    say "the broker hung on it and was started again"
+    eventually 10 are_active "${members[@]}" || fail "not all are back"
+    return
+  fi
+  [[ $(pids_without "$unit") == "$others" ]] || fail "others ended when $unit was killed"
+}
+
+no_process() { ! pgrep --uid gvom > /dev/null; }
+
+check_stop() {
+  local started
+  started=$(date '+%F %T')
+  sleep 1  # journalctl's --since is of whole seconds
+  say "stopping gvom.target"
+  stop_all
+  for unit in "${members[@]}"; do
+    [[ $(property "$unit" Result) == success ]] || fail "$unit ended with $(property "$unit" Result)"
+  done
+  if journalctl --since "$started" --unit 'gvom*' --output cat | grep -iE 'abort|cannot go on|SIGKILL|timed out|core'; then
+    fail "the stop was not clean"
+  fi
+  [[ ! -e /dev/shm/gvom && ! -e /dev/shm/iceoryx_mgmt ]] || fail "shared memory is left"
+  # The broker last.
+  journalctl --since "$started" --output cat | grep -E '^Stopped gvom' | tail -n 1 | grep --quiet gvom-roudi || fail "the broker was not the last to stop"
+}
+
+is_new_broker() { is_back gvom-roudi "$1" && are_active "${members[@]}"; }
+
+check_upgrade() {
+  local pid
+  systemctl start gvom.target
+  pid=$(pid_of gvom-roudi)
+  install_package  # again, while it runs
+  eventually 20 is_new_broker "$pid" || fail "after an upgrade not everything was started again"
+}
+
+check_removal() {
+  say "removing the package while it runs"
+  dpkg --purge gvom > /tmp/dpkg.log 2>&1 || { cat /tmp/dpkg.log; fail "dpkg --purge"; }
+  eventually 10 no_process || fail "processes are left: $(pgrep --uid gvom --list-full)"
+  [[ ! -e $vehicle && ! -e /usr/lib/systemd/system/gvom.target && ! -e /etc/systemd/system/gvom.target.wants ]] || fail "files are left"
+}
+
+rm -f /usr/sbin/policy-rc.d  # in a container's image it forbids packages to restart anything
+install_package
+check_install
+use_recording
+start_all
+must_see_layers "at first"
+check_running
+check_tools
+for unit in gvom-fusion gvom-ingest@front gvom-odometry; do kill_one "$unit"; done
+check_stop
+check_upgrade
+check_removal
+say "well"

@@ -1,0 +1,57 @@
+#!/usr/bin/env bash
+# What a restart can't cure is not restarted; what may come later is tried slowly.
+# shellcheck source=common.bash
+source "$(dirname "$0")/common.bash"
+
+has_failed_with() {  # has_failed_with UNIT CODE
+  [[ $(systemctl is-failed "$1" || true) == failed && $(property "$1" ExecMainStatus) == "$2" ]]
+}
+
+must_refuse() {  # must_refuse UNIT CODE WORDS: it fails so, and stays so
+  eventually 20 has_failed_with "$1" "$2" || fail "$1 did not fail with $2"
+  sleep 1
+  has_failed_with "$1" "$2" || fail "$1 was started again"
+  [[ $(property "$1" NRestarts) == 0 ]] || fail "$1 was restarted $(property "$1" NRestarts) times"
+  journalctl --unit "$1" --output cat | grep --quiet --fixed-strings "$3" || fail "$1 did not say: $3"
+  say "$1 ends with $2 and stays so"
+}
+
+give_arguments() {  # give_arguments UNIT ARGUMENTS
+  mkdir -p "/etc/systemd/system/$1.d"
+  printf '%s\n' '[Service]' "Environment=\"ARGUMENTS=$2\"" > "/etc/systemd/system/$1.d/test.conf"
+  systemctl daemon-reload
+}
+
+has_restarted() { (($(property gvom-fusion NRestarts) >= 1)); }
+
+check_missing_gpu() {
+  local start before
+  give_arguments gvom-fusion.service "--set fusion.backend=cuda"
+  systemctl restart --no-block gvom-fusion
+  eventually 20 has_restarted || fail "gvom-fusion without its GPU is not started again"
+  before=$(property gvom-fusion NRestarts) start=$(now_ms)
+  sleep 5
+  local more=$(($(property gvom-fusion NRestarts) - before))
+  say "fusion without its GPU: $more more starts in $(($(now_ms) - start)) ms"
+  ((more <= 6)) || fail "that is too often"
+  are_active gvom-ingest@front gvom-roudi || fail "others suffer from it"
+  rm -r /etc/systemd/system/gvom-fusion.service.d
+  systemctl daemon-reload
+  eventually 20 are_active gvom-fusion || fail "fusion did not come back once it could"
+}
+
+install_package
+use_recording
+start_all
+systemctl start gvom-ingest@left || true
+must_refuse gvom-ingest@left 78 "left"
+check_missing_gpu
+printf 'not a recording' > /var/lib/gvom/rear.pcap
+systemctl restart gvom-ingest@rear || true
+must_refuse gvom-ingest@rear 65 "rear.pcap"
+are_active gvom-roudi gvom-fusion gvom-ingest@front || fail "others suffer from it"
+stop_all
+echo "window: {bufer_size: 3}" >> "$vehicle"
+systemctl start gvom.target || true
+must_refuse gvom-roudi 78 "$vehicle"
+say "well"

@@ -1,0 +1,105 @@
+// How the vehicle's processes are at one moment: what every output of gvomctl shows.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/common/health_view.hpp"
+#include "tools/common/process_usage.hpp"
+#include "tools/ctl/observed.hpp"
+
+namespace gvom::ctl {
+
+/// The broker, by a look from outside (ipc/broker_probe.hpp) and by joining its bus.
+enum class BrokerState { absent, hung, up };
+
+struct Broker {
+  BrokerState state = BrokerState::absent;
+  bool joined = false;  ///< Its bus, by us.
+  std::optional<std::uint32_t> pid;
+  std::string note;  ///< Why it is absent, else the bus's last complaint, such as why it could not be joined.
+};
+
+/// Which processes the vehicle's file asks for.
+struct Expected {
+  std::string vehicle;                 ///< Empty: no file was given, nothing is missed.
+  std::vector<std::string> processes;  ///< Runtime names, in the order in which they are shown.
+};
+
+/// What is known of processes but from the bus.
+struct Surroundings {
+  std::function<std::optional<tools::Usage>(std::uint32_t pid)> usage;
+  std::function<std::optional<std::uint64_t>(const std::string& process)> restarts;
+};
+
+/// A process's own word of itself, or what can be told of one that does not speak: silent, it is there; hung,
+/// it takes no messages (the broker); missing, it is not there; unknown, the bus is not heard.
+enum class ProcessState { starting, ok, degraded, failed, stopping, silent, hung, missing, unknown };
+inline constexpr int kProcessStates = 9;
+
+struct Drop {
+  std::string reason;           ///< The counter's name without "drop_".
+  std::uint64_t count;          ///< Since the process started.
+  std::optional<double> per_s;  ///< Between its last two Healths.
+};
+
+struct ProcessView {
+  std::string name;
+  ProcessState state = ProcessState::missing;
+  std::string reason;  ///< Why it is not ok, in words.
+  std::optional<std::uint32_t> pid;
+  std::optional<double> rate_hz;       ///< Of its product.
+  std::optional<double> health_age_s;  ///< Of its last Health.
+  std::optional<double> data_age_s;    ///< Fusion: of the packets in its layers; a lidar: of its newest map.
+  std::vector<Drop> drops;             ///< Those that are not 0.
+  tools::Counters counters;
+  std::vector<ipc::Health::Stage> stages;
+  std::optional<std::uint64_t> restarts;  ///< By systemd, since the unit was started by hand.
+  std::optional<tools::Usage> usage;
+  std::string backend;
+  std::string backend_details;
+};
+
+struct LidarView {
+  std::string name;
+  bool missing;
+  std::uint32_t maps_in_window;
+  std::uint64_t maps_lost;
+};
+
+struct LayersView {
+  double age_s;         ///< Since they were published.
+  double packet_age_s;  ///< Since the last packet in them was received.
+  std::uint32_t maps_in_window;
+  std::vector<LidarView> lidars;
+};
+
+struct OdometryView {
+  double age_s;  ///< Since the last one was heard, to 0.1 s.
+  std::optional<double> rate_hz;
+};
+
+struct Snapshot {
+  std::string vehicle;
+  Broker broker;
+  std::vector<ProcessView> processes;  ///< The broker first.
+  std::optional<LayersView> layers;
+  std::optional<OdometryView> odometry;
+  std::vector<ipc::PoolUse> pools;
+  std::vector<std::string> problems;  ///< Everything that is not as it should be; empty: all is well.
+};
+
+/// "starting", "ok", ..., "unknown".
+const char* to_string(ProcessState state);
+
+/// At `mono_ns` of CLOCK_MONOTONIC.
+Snapshot assess(const Broker& broker, const Observed& observed, const Expected& expected,
+                const Surroundings& surroundings, std::int64_t mono_ns);
+
+/// Whether a longer look would tell no more: all that is expected was heard twice, and so on.
+bool is_complete(const Observed& observed, const Expected& expected);
+
+}  // namespace gvom::ctl
