@@ -9,7 +9,7 @@
 
 namespace gvom::test {
 
-/// 32 x 32 columns of 0.5 m, column (0, 0) at world voxel (100, -40). Ground at 1 m in the rows y < 24,
+/// 32 x 32 columns of 0.5 m, column (0, 0) at world voxel (104, -40). Ground at 1 m in the rows y < 24,
 /// nothing observed in the others. The vehicle stands at column (8.0, 16.0), looking to +y.
 class FlatWorld {
  public:
@@ -42,9 +42,9 @@ class FlatWorld {
     p.vehicle = "flat";
     p.n_xy = kSize;
     p.n_z = 16;
-    p.origin_voxels = {100, -40, -8};
+    p.origin_voxels = {104, -40, -8};
     p.resolution_xy_m = p.resolution_z_m = kResolution_m;
-    p.base_position_m = {(100 + 8) * kResolution_m, (-40 + 16) * kResolution_m, 1.0};
+    p.base_position_m = {(104 + 8) * kResolution_m, (-40 + 16) * kResolution_m, 1.0};
     p.base_orientation_xyzw = {0, 0, std::sqrt(0.5), std::sqrt(0.5)};
     p.stamp_ns = 1'317'046'450'123'456'789;
     p.maps_in_window = 3;
