@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <iterator>
 #include <string_view>
 
@@ -72,6 +73,16 @@ Complaint bad_frame(const M& message) {
   return pose ? Complaint{} : Complaint{"has a pose that is not finite, or over 10,000 km away"};
 }
 
+bool is_time(std::int64_t time_ns) {
+  return time_ns >= -kMaxStamp_ns && time_ns <= kMaxStamp_ns;
+}
+
+Complaint bad_time(std::initializer_list<std::int64_t> times_ns) {
+  for (const std::int64_t time_ns : times_ns)
+    if (!is_time(time_ns)) return "has a time of " + std::to_string(time_ns) + " ns";
+  return std::nullopt;
+}
+
 Complaint check_odometry(const std::byte*, std::size_t bytes) {
   return wrong_size(bytes, sizeof(Odometry));
 }
@@ -84,6 +95,7 @@ Complaint check_progress(const std::byte* message, std::size_t bytes) {
 Complaint check_health(const std::byte* message, std::size_t bytes) {
   if (auto complaint = wrong_size(bytes, sizeof(Health))) return complaint;
   const auto& health = as<Health>(message);
+  if (auto complaint = bad_time({health.mono_ns})) return complaint;
   return first_of(too_many("counters", health.counter_count, Health::kMaxCounters),
                   too_many("stages", health.stage_count, Health::kMaxStages));
 }
@@ -92,6 +104,11 @@ Complaint check_layers(const std::byte* message, std::size_t bytes) {
   if (bytes < sizeof(Layers)) return wrong_size(bytes, sizeof(Layers));
   const auto& layers = as<Layers>(message);
   if (auto complaint = bad_frame(layers)) return complaint;
+  if (auto complaint = bad_time({layers.mono_received_ns, layers.mono_mapped_ns, layers.mono_map_published_ns,
+                                 layers.mono_fused_ns, layers.mono_published_ns}))
+    return complaint;
+  for (const LidarStatus& lidar : layers.lidars)
+    if (auto complaint = bad_time({lidar.newest_stamp_ns})) return complaint;
   return first_of(too_many("lidars", layers.lidar_count, kMaxLidars),
                   wrong_size(bytes, layers_bytes(layers.size_voxels[0])));
 }
@@ -101,6 +118,9 @@ Complaint check_brick_map(const std::byte* message, std::size_t bytes) {
   const auto& map = as<BrickMap>(message);
   const auto& size = map.size_voxels;
   if (auto complaint = bad_frame(map)) return complaint;
+  if (auto complaint =
+          bad_time({map.mono_received_ns, map.mono_mapped_ns, map.mono_published_ns, map.odometry_jump_ns}))
+    return complaint;
   const std::uint64_t voxels = std::uint64_t(size[0]) * std::uint64_t(size[1]) * std::uint64_t(size[2]);
   if (map.brick_slots != voxels / kBrickVoxels) {
     return "claims " + std::to_string(map.brick_slots) + " brick slots, its grid has " +
@@ -133,7 +153,7 @@ std::optional<Refusal> check_message(const Topic& topic, const std::byte* messag
   if (header.size < sizeof(MessageHeader) || header.size > chunk_bytes) {
     return Refusal{Reason::size, mismatch("size", header.size, chunk_bytes)};
   }
-  if (header.stamp_ns < -kMaxStamp_ns || header.stamp_ns > kMaxStamp_ns) {
+  if (!is_time(header.stamp_ns)) {
     return Refusal{Reason::size, "its stamp is " + std::to_string(header.stamp_ns) + " ns"};
   }
   if (const auto complaint = topic.check(message, header.size))

@@ -86,11 +86,17 @@ std::string nearest_key(const std::string& key) {
   add_keys(vehicle_rows(), "", keys);
   if (const auto lidar_key = split_lidar_key(key))
     add_keys(lidar_rows(), kLidarsDot + lidar_key->name + ".", keys);
-  const auto distance = [&](const std::string& candidate) { return edit_distance(key, candidate); };
-  const auto nearest = std::min_element(
-      keys.begin(), keys.end(), [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
   const std::size_t leaf_length = key.size() - (key.rfind('.') + 1);  // npos + 1 is 0
-  return distance(*nearest) <= std::max<std::size_t>(2, leaf_length / 3) ? *nearest : "";
+  std::size_t too_far = std::max<std::size_t>(2, leaf_length / 3) + 1;
+  std::string nearest;
+  for (const std::string& candidate : keys) {
+    if (std::max(key.size(), candidate.size()) - std::min(key.size(), candidate.size()) >= too_far) continue;
+    const std::size_t distance = edit_distance(key, candidate);
+    if (distance >= too_far) continue;
+    too_far = distance;
+    nearest = candidate;
+  }
+  return nearest;
 }
 
 LidarConfig* lidar_named(VehicleConfig& config, const std::string& name) {

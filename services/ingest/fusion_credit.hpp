@@ -16,11 +16,11 @@ class FusionCredit {
 
   /// `published`: the newest of our maps. A fusion that began anew never gets those from before.
   void take(const ipc::Progress& progress, std::uint64_t published) {
-    if (std::strcmp(progress.reader, "fusion") != 0) return;
+    if (ipc::text_of(progress.reader) != "fusion") return;
     if (progress.header.sequence <= newest_progress_) missed_ = published;
     newest_progress_ = progress.header.sequence;
     for (std::uint32_t i = 0; i < progress.lidar_count && i < ipc::kMaxLidars; ++i)
-      if (lidar_ == progress.taken[i].lidar) taken_ = progress.taken[i].sequence;
+      if (lidar_ == ipc::text_of(progress.taken[i].lidar)) taken_ = progress.taken[i].sequence;
   }
 
   /// Whether another map fits fusion's queue of 16, by a wide margin.

@@ -20,8 +20,8 @@ class MemoryFile {
   MemoryFile& operator=(const MemoryFile&) = delete;
 
   void set(const void* data, std::size_t size) const {
-    require(::ftruncate(descriptor_, 0) == 0, "a memory file can be emptied");
     require(::pwrite(descriptor_, data, size, 0) == static_cast<ssize_t>(size), "a memory file takes it all");
+    require(::ftruncate(descriptor_, static_cast<off_t>(size)) == 0, "a memory file can be cut");
   }
   void set(ingest::Bytes bytes) const { set(bytes.data, bytes.size); }
   void set(const std::string& text) const { set(text.data(), text.size()); }
