@@ -1,9 +1,7 @@
 #include "ipc/brick_map.hpp"
 
-#include <cmath>
 #include <cstring>
 #include <utility>
-#include <vector>
 
 #include "ipc/text.hpp"
 
@@ -34,48 +32,6 @@ void zero_padding(std::byte* base, const BrickMap& map, const BrickMapLayout& la
   zero(layout.directory + map.brick_slots * sizeof(std::int32_t), layout.lookup);
   zero(layout.lookup + lookup_count(map.brick_count) * sizeof(std::int32_t), layout.columns);
   zero(layout.columns + map.brick_count * sizeof(std::uint64_t), layout.records);
-}
-
-Error broken(const std::string& what) {
-  return {ErrorKind::incompatible, "map refused: " + what};
-}
-
-Expected<void> check_directory(Span<const std::int32_t> directory, std::uint32_t brick_count) {
-  std::vector<bool> used(brick_count, false);
-  std::uint32_t bricks = 0;
-  for (const std::int32_t brick : directory) {
-    if (brick == -1) continue;
-    if (brick < 0 || static_cast<std::uint32_t>(brick) >= brick_count || used[brick]) {
-      return tl::unexpected(broken("brick " + std::to_string(brick) + " in the directory is not one of " +
-                                   std::to_string(brick_count) + ", or stands there twice"));
-    }
-    used[brick] = true;
-    ++bricks;
-  }
-  if (bricks == brick_count) return {};
-  return tl::unexpected(
-      broken(std::to_string(bricks) + " of " + std::to_string(brick_count) + " bricks are in the directory"));
-}
-
-Expected<void> check_lookup(Span<const std::int32_t> lookup, std::uint32_t record_count) {
-  for (const std::int32_t value : lookup) {
-    if (value >= 0 && static_cast<std::uint32_t>(value) >= record_count) {
-      return tl::unexpected(
-          broken("a voxel leads to record " + std::to_string(value) + " of " + std::to_string(record_count)));
-    }
-  }
-  return {};
-}
-
-Expected<void> check_records(Span<const VoxelRecord> records) {
-  constexpr float kHighest_m = 1.1e7F;  // the farthest position, and a lidar's reach from there
-  for (const VoxelRecord& record : records) {
-    if (record.hits == 0 || !(std::abs(record.min_height_m) <= kHighest_m)) {
-      return tl::unexpected(broken("a record has " + std::to_string(record.hits) + " hits, the lowest at " +
-                                   std::to_string(record.min_height_m) + " m"));
-    }
-  }
-  return {};
 }
 
 }  // namespace
@@ -151,12 +107,6 @@ Span<const std::uint64_t> BrickMapSample::columns() const {
 }
 Span<const VoxelRecord> BrickMapSample::records() const {
   return array_at<VoxelRecord>(chunk_.data(), layout_.records, header().record_count);
-}
-
-Expected<void> BrickMapSample::validate_deep() const {
-  return check_directory(directory(), header().brick_count)
-      .and_then([this] { return check_lookup(lookup(), header().record_count); })
-      .and_then([this] { return check_records(records()); });
 }
 
 Expected<BrickMapSubscriber> BrickMapSubscriber::buffer_map(Runtime& runtime, const std::string& lidar) {

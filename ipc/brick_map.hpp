@@ -54,6 +54,13 @@ class BrickMapPublisher {
   std::size_t capacity_bytes_;
 };
 
+/// What is wrong with a map's arrays.
+struct MapFault {
+  enum class Part { directory, lookup, columns, records };
+  Part part;
+  std::string why;  ///< In words.
+};
+
 /// A received map. Its counts, sizes and offsets fit its chunk; what the arrays hold is checked by
 /// validate_deep().
 class BrickMapSample {
@@ -66,10 +73,11 @@ class BrickMapSample {
   [[nodiscard]] Span<const std::uint64_t> columns() const;
   [[nodiscard]] Span<const VoxelRecord> records() const;
 
-  /// Nothing if every index in the arrays leads where it may: each brick in the directory exactly once,
-  /// lookup values below record_count; and every record has hits at a height that can be. Reads all of that:
-  /// call it where the publisher is not trusted.
-  [[nodiscard]] Expected<void> validate_deep() const;
+  /// Nothing if the arrays are what a map's can be: the directory names each brick once, in the order of
+  /// their slots; as many voxels as there are records lead to one, each to one that is there; the columns
+  /// have bits where a voxel was observed; every record has hits, at a height that can be. Reads all of
+  /// that once, some 0.1 ms for a sweep: call it before you follow an index.
+  [[nodiscard]] tl::expected<void, MapFault> validate_deep() const;
 
  private:
   Chunk chunk_;

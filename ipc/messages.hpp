@@ -50,7 +50,8 @@ struct VoxelRecord {
 
 /// Voxels of a grid in bricks of 8 x 8 x 8 (R6). The arrays behind it, each aligned to 64 bytes, in this
 /// order:
-///   int32  directory[brick_slots]    brick's index or -1 (untouched); slot = (bz * ny_b + by) * nx_b + bx
+///   int32  directory[brick_slots]    brick's index or -1 (untouched); slot = (bz * ny_b + by) * nx_b + bx;
+///                                    bricks are numbered in the order of their slots
 ///   int32  lookup[brick_count * 512] per voxel: record index, or -1 - passes; cell = (x * 8 + y) * 8 + z
 ///   uint64 columns[brick_count]      bit x * 8 + y: some voxel of that column of the brick was observed
 ///   VoxelRecord records[record_count]

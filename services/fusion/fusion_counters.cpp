@@ -20,6 +20,10 @@ FusionCounters::FusionCounters(services::HealthReport& health)
       drop_map_old_epoch(health.counter("drop_map_old_epoch")),
       drop_map_before_jump(health.counter("drop_map_before_jump")),
       drop_map_refused(health.counter("drop_map_refused")),
+      drop_map_bad_directory(health.counter("drop_map_bad_directory")),
+      drop_map_bad_lookup(health.counter("drop_map_bad_lookup")),
+      drop_map_bad_columns(health.counter("drop_map_bad_columns")),
+      drop_map_bad_records(health.counter("drop_map_bad_records")),
       drop_map_backend_failed(health.counter("drop_map_backend_failed")),
       layers_out(health.counter("layers_out")),
       drop_layers_no_chunk(health.counter("drop_layers_no_chunk")),
@@ -30,6 +34,39 @@ FusionCounters::FusionCounters(services::HealthReport& health)
       fuse(health.stage("fuse")),
       make_layers(health.stage("make_layers")),
       received_to_layers(health.stage("received_to_layers")) {}
+
+void FusionCounters::count_drop(AddResult result) {
+  switch (result) {
+    case AddResult::too_old:
+      ++drop_map_too_old;
+      break;
+    case AddResult::duplicate:
+      ++drop_map_duplicate;
+      break;
+    case AddResult::wrong_grid:
+      ++drop_map_wrong_grid;
+      break;
+    case AddResult::added:
+      break;
+  }
+}
+
+void FusionCounters::count_drop(ipc::MapFault::Part part) {
+  switch (part) {
+    case ipc::MapFault::Part::directory:
+      ++drop_map_bad_directory;
+      break;
+    case ipc::MapFault::Part::lookup:
+      ++drop_map_bad_lookup;
+      break;
+    case ipc::MapFault::Part::columns:
+      ++drop_map_bad_columns;
+      break;
+    case ipc::MapFault::Part::records:
+      ++drop_map_bad_records;
+      break;
+  }
+}
 
 DeviceStages::DeviceStages(services::HealthReport& health)
     : upload(health.stage("device_upload")),

@@ -19,6 +19,7 @@ namespace {
 constexpr std::chrono::milliseconds kLongestWait{100};
 constexpr std::int64_t kProgressPeriod_ns = 250'000'000;  // also while idle, so that a replay sees us
 constexpr std::int64_t kStale_ns = 1'000'000'000;
+constexpr std::int64_t kBadMapTold_ns = 2'000'000'000;
 
 std::int64_t period_ns(double rate_hz) {
   return static_cast<std::int64_t>(1e9 / rate_hz);
@@ -83,6 +84,7 @@ void FusionNode::fuse(const ArrivedMap& map) {
   const ipc::BrickMap& header = map.sample->header();
   ++counters_.maps_in;
   progress_news_ = true;
+  if (const auto sound = map.sample->validate_deep(); !sound) return refuse(map, sound.error());
   if (header.header.epoch > epoch_) begin_epoch(header.header.epoch);
   if (header.header.epoch < epoch_) {
     ++counters_.drop_map_old_epoch;
@@ -99,10 +101,7 @@ void FusionNode::fuse(const ArrivedMap& map) {
     ++counters_.drop_map_backend_failed;
     return fail(result.error());
   }
-  if (*result != AddResult::added) {
-    count_refusal(*result);
-    return bus_.inbox.release(map.token);
-  }
+  if (*result != AddResult::added) return refuse(map, *result);
   fused_ns_ = ipc::monotonic_ns();
   counters_.fuse.record_ns(fused_ns_ - begin_ns);
   ++counters_.maps_fused;
@@ -135,22 +134,22 @@ void FusionNode::empty_window() {
   for (const WindowMap& left : fuser_.window().left()) bus_.inbox.release(left.token);
 }
 
-void FusionNode::count_refusal(AddResult result) {
-  switch (result) {
-    case AddResult::too_old:
-      ++counters_.drop_map_too_old;
-      break;
-    case AddResult::duplicate:
-      ++counters_.drop_map_duplicate;
-      break;
-    case AddResult::wrong_grid:
-      ++counters_.drop_map_wrong_grid;
-      log_drops_(spdlog::level::err,
-                 "a map of another grid came: do all processes have the same configuration?");
-      break;
-    case AddResult::added:
-      break;
+/// Before its epoch or jump is looked at: nothing of such a map is believed.
+void FusionNode::refuse(const ArrivedMap& map, const ipc::MapFault& fault) {
+  counters_.count_drop(fault.part);
+  bad_map_ = "lidar " + bus_.inbox.lidars()[static_cast<std::size_t>(map.lidar)].name + ": " + fault.why;
+  bad_map_ns_ = ipc::monotonic_ns();
+  log_drops_(spdlog::level::err, "{}", bad_map_);
+  bus_.inbox.release(map.token);
+}
+
+void FusionNode::refuse(const ArrivedMap& map, AddResult result) {
+  counters_.count_drop(result);
+  if (result == AddResult::wrong_grid) {
+    log_drops_(spdlog::level::err,
+               "a map of another grid came: do all processes have the same configuration?");
   }
+  bus_.inbox.release(map.token);
 }
 
 void FusionNode::fail(const DeviceError& error) {
@@ -261,7 +260,9 @@ void FusionNode::publish_progress() {
 void FusionNode::publish_health() {
   const std::int64_t now_ns = ipc::monotonic_ns();
   if (!health_.due(now_ns)) return;
-  if (last_layers_ns_ == 0)
+  if (bad_map_ns_ != 0 && now_ns - bad_map_ns_ < kBadMapTold_ns)
+    health_.set_state(ipc::HealthState::degraded, bad_map_);
+  else if (last_layers_ns_ == 0)
     health_.set_state(ipc::HealthState::starting, "no maps yet");
   else if (now_ns - last_layers_ns_ < kStale_ns)
     health_.set_state(ipc::HealthState::ok);

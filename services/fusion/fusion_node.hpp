@@ -51,7 +51,8 @@ class FusionNode {
   void begin_epoch(std::uint64_t epoch);
   void begin_after_jump(std::int64_t stamp_ns);
   void empty_window();
-  void count_refusal(AddResult result);
+  void refuse(const ArrivedMap& map, const ipc::MapFault& fault);
+  void refuse(const ArrivedMap& map, AddResult result);
   /// Nothing of this process's map can be trusted any more: it leaves, to be started again.
   void fail(const DeviceError& error);
   [[nodiscard]] bool tick_due(std::int64_t now_ns) const;
@@ -84,6 +85,8 @@ class FusionNode {
   std::int64_t next_progress_ns_ = 0;
   std::int64_t last_layers_ns_ = 0;
   bool progress_news_ = true;
+  std::string bad_map_;                 // whose map led nowhere, and how
+  std::int64_t bad_map_ns_ = 0;         // when the last such came, 0: none yet
   std::optional<std::string> failure_;  // of the back end, for good
 };
 

@@ -39,6 +39,10 @@ constexpr Reason kMapReasons[] = {
     {"drop_map_wrong_grid", "wrong grid"},
     {"drop_map_old_epoch", "of an old epoch"},
     {"drop_map_refused", "refused"},
+    {"drop_map_bad_directory", "with a broken directory"},
+    {"drop_map_bad_lookup", "with broken lookup values"},
+    {"drop_map_bad_columns", "with broken columns"},
+    {"drop_map_bad_records", "with broken records"},
 };
 
 struct Sum {

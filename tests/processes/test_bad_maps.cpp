@@ -1,0 +1,158 @@
+// Maps that are readable but lead nowhere: fusion believes nothing of them, counts them by what is wrong,
+// says whose they are, and maps the good lidar as if it were alone.
+#include <sys/mman.h>
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "ipc/text.hpp"
+#include "services/common/bus/pool_spec.hpp"
+#include "services/common/config_file.hpp"
+#include "tests/processes/observer.hpp"
+#include "tests/processes/recordings.hpp"
+#include "tests/tools/temporary_folder.hpp"
+
+using namespace gvom::test;
+using gvom::ipc::BrickMapPublisher;
+using gvom::ipc::BrickMapSample;
+using gvom::ipc::BrickMapSubscriber;
+using gvom::ipc::BrickMapWriter;
+using gvom::ipc::test::Child;
+using gvom::ipc::test::eventually;
+using gvom::ipc::test::Step;
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr int kSweeps = 20;
+constexpr char kFusion[] = "gvom-fusion";
+constexpr const char* kCounters[] = {"drop_map_bad_directory", "drop_map_bad_lookup", "drop_map_bad_columns",
+                                     "drop_map_bad_records"};
+
+/// Makes the map lead nowhere, in a way that the counter of this index counts.
+void spoil(const BrickMapWriter& map, std::size_t counter) {
+  const auto brick_count = static_cast<std::int32_t>(map.header().brick_count);
+  switch (counter) {
+    case 0:
+      for (auto& brick : map.directory()) brick = brick < 0 ? brick : brick_count + 1'000'000;
+      break;
+    case 1:
+      for (auto& record : map.lookup()) record = record < 0 ? record : record + 1'000'000'000;
+      break;
+    case 2:
+      map.columns()[0] ^= 1;
+      break;
+    default:
+      map.records()[0].min_height_m = NAN;
+  }
+}
+
+BrickMapWriter copy_of(const BrickMapSample& map, BrickMapPublisher& publisher) {
+  const gvom::ipc::BrickMap& header = map.header();
+  auto copy = publisher.loan(header.brick_slots, header.brick_count, header.record_count);
+  EXPECT(copy);
+  copy->header() = header;
+  gvom::ipc::set_text(copy->header().lidar, "rear");
+  std::copy(map.directory().begin(), map.directory().end(), copy->directory().begin());
+  std::copy(map.lookup().begin(), map.lookup().end(), copy->lookup().begin());
+  std::copy(map.columns().begin(), map.columns().end(), copy->columns().begin());
+  std::copy(map.records().begin(), map.records().end(), copy->records().begin());
+  return std::move(*copy);
+}
+
+/// Publishes each map of `front` as one of `rear` with something wrong, and half of them of a later epoch.
+[[noreturn]] void live_as_liar(const Vehicle& vehicle, Step& lies) {
+  const auto config = gvom::services::load_vehicle_config(vehicle.file, vehicle.sets).value();
+  auto runtime = gvom::ipc::Runtime::connect("gvom-ingest-rear", gvom::ipc::test::kPatience).value();
+  auto maps = BrickMapSubscriber::buffer_map(runtime, "front").value();
+  auto liar =
+      BrickMapPublisher::buffer_map(runtime, "rear", buffer_map_capacity(gvom::services::pool_spec(config)))
+          .value();
+  EXPECT(eventually([&] { return liar.has_subscribers(); }));
+  lies.reach(1);
+  for (int sent = 0;; ++sent) {
+    auto map = maps.take();
+    while (!map) {
+      std::this_thread::sleep_for(1ms);
+      map = maps.take();
+    }
+    BrickMapWriter copy = copy_of(*map, liar);
+    spoil(copy, static_cast<std::size_t>(sent) % std::size(kCounters));
+    const auto& header = map->header().header;
+    liar.publish(std::move(copy), header.stamp_ns, header.epoch + (sent / 4 % 2 == 0 ? 0 : 7));
+    lies.reach(2 + sent);
+  }
+}
+
+/// The vehicle of one lidar and another beside it, whose ingest is not started.
+Vehicle with_rear(const Vehicle& front) {
+  Vehicle vehicle = front;
+  vehicle.file = front.folder + "/with_rear.yaml";
+  std::ostringstream text;
+  text << std::ifstream(front.file).rdbuf();
+  std::ofstream(vehicle.file) << text.str()
+                              << "  rear:\n    source: ouster:front.pcap?meta=front.json\n"
+                                 "    max_returns: 65536\n"
+                                 "    T_base_sensor: {x: 0, y: 0, z: 1, roll: 0, pitch: 0, yaw: 3}\n";
+  return vehicle;
+}
+
+void check_bad_maps(const std::vector<std::string>& sets, const std::string& variant) {
+  const TemporaryFolder folder;
+  simulated(folder.path(), kSweeps / 10.0);
+  Vehicle front = front_only(folder.path());
+  const std::string expected = last_map(map_offline(front, "maps"));
+  Vehicle vehicle = with_rear(front);
+  vehicle.sets.insert(vehicle.sets.end(), sets.begin(), sets.end());
+  vehicle.variant = variant;
+
+  Graph graph(vehicle);
+  const Observer observer(folder.path());
+  REQUIRE(observer.is_up());
+  graph.start_readers();
+  REQUIRE(graph.ingest("front").says("front from"));
+  REQUIRE(graph.fusion().says("fusing"));
+  const std::string out = folder.path() + "/out";
+  const auto snapshot = graph.start("gvom-snapshot", {"--out", out, "--final", "--npy"});
+  Step lies;
+  Child liar([&] { live_as_liar(graph.vehicle(), lies); });
+  REQUIRE(lies.wait_for(1));
+
+  const auto odometry = graph.replay({"--rate", "1", "--wait-readers", "1"});
+  const auto degraded = static_cast<std::uint32_t>(gvom::ipc::HealthState::degraded);
+  std::string reason;
+  CHECK(eventually([&] {
+    const auto health = observer.health(kFusion);
+    if (health && health->state == degraded) reason = health->reason;
+    return reason.find("lidar rear: map refused: ") == 0;
+  }));
+  INFO("fusion said: " << reason);
+  CHECK(odometry->wait() == 0);
+  CHECK(lies.wait_for(1 + kSweeps));
+  for (const char* counter : kCounters) {
+    INFO(counter);
+    CHECK(eventually([&] { return observer.counter(kFusion, counter) == kSweeps / std::size(kCounters); }));
+  }
+  CHECK(graph.fusion().runs());
+  CHECK(observer.counter(kFusion, "maps_fused") == kSweeps);
+  CHECK(observer.counter(kFusion, "maps_in") == 2 * kSweeps);
+  CHECK(observer.counter(kFusion, "epochs") == 0);
+  CHECK(observer.newest_layers().lidars[1].missing == 1);
+  CHECK(snapshot->stop() == 0);
+  CHECK(differences(expected, last_map(out)) == "");
+  liar.kill();
+  graph.stop();
+}
+
+}  // namespace
+
+TEST_CASE("maps that lead nowhere are refused, and the good lidar's are mapped as if alone") {
+  check_bad_maps({"fusion.backend=cpu"}, "");
+}
+
+TEST_CASE("so they are where a device fuses") {
+  check_bad_maps({"fusion.backend=cuda", "lidars.front.backend=cpu"}, "-serial");
+}
