@@ -110,7 +110,7 @@ struct LidarStatus {
   std::int64_t newest_stamp_ns;  // 0: none came yet
   std::uint32_t maps_in_window;
   std::uint32_t missing;  // 1: one of the vehicle's lidars, but no map of it is in the window, or its newest
-                          // is more than fusion.missing_after_s (0.35 s) older than the newest of all lidars,
+                          // is more than fusion.missing_after_s (0.3 s) older than the newest of all lidars,
                           // by their stamps. If all fall silent at once none is: then the layers' age says so
   std::uint64_t maps_received;
   std::uint64_t maps_lost;  // gaps in its sequence

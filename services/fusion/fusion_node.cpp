@@ -70,7 +70,10 @@ services::ExitCode FusionNode::run() {
 }
 
 void FusionNode::fuse_arrived() {
-  while (const auto map = bus_.inbox.take()) {
+  // A few at a time: maps that come faster than they are fused must not keep it from telling its health.
+  for (std::size_t i = 0; i < bus_.inbox.lidars().size(); ++i) {
+    const auto map = bus_.inbox.take();
+    if (!map) break;
     fuse(*map);
     if (failure_) return;
     if (config_.fusion.rate_hz <= 0 ? fresh_ : tick_due(ipc::monotonic_ns())) publish_layers();
