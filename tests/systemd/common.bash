@@ -6,6 +6,9 @@ set -euo pipefail
 members=(gvom-roudi gvom-fusion gvom-ingest@front gvom-ingest@rear gvom-odometry)
 vehicle=/etc/gvom/vehicle.yaml
 
+# What the machine's own broker left; it is seen here, but stays there.
+find /tmp -maxdepth 1 -not -type d \( -name 'roudi*' -o -name 'iox-*' -o -name 'gvom-*' \) -delete
+
 say() { printf '%s\n' "== $*"; }
 
 fail() {
@@ -44,6 +47,30 @@ use_recording() {  # and over and over again
   printf '%s\n' '[Service]' Environment=ARGUMENTS=--loop > /etc/systemd/system/gvom-odometry.service.d/loop.conf
   systemctl daemon-reload
   systemctl --quiet enable gvom-ingest@front gvom-ingest@rear gvom-odometry
+}
+
+use_live_vehicle() {  # its sensors send to ports, at 20 Hz; it publishes its own odometry, and reads the layers
+  members=(gvom-roudi gvom-fusion gvom-ingest@front gvom-ingest@rear gvom-test-vehicle)
+  install --owner gvom --directory /tmp/gvom-test
+  sed --in-place --expression 's|ouster:front.pcap|"ouster-udp:7502|; s|ouster:rear.pcap|"ouster-udp:7503|' \
+    --expression 's|meta=.*.json|&"|' "$vehicle"
+  printf '%s\n' '[Unit]' 'PartOf=gvom.target gvom-roudi.service' Requires=gvom-roudi.service After=gvom-roudi.service \
+    '[Service]' Type=notify 'ExecStart=/usr/local/bin/gvom-test-vehicle /var/lib/gvom /tmp/gvom-test front:7502 rear:7503' \
+    Restart=always TimeoutStopSec=1 '[Install]' WantedBy=gvom.target > /etc/systemd/system/gvom-test-vehicle.service
+  systemctl --quiet disable gvom-odometry
+  systemctl daemon-reload
+  systemctl --quiet enable gvom-test-vehicle
+}
+
+use_replayed_vehicle() {  # use_replayed_vehicle FILE: again, with the configuration of before
+  members=(gvom-roudi gvom-fusion gvom-ingest@front gvom-ingest@rear gvom-odometry)
+  cp "$1" "$vehicle"
+  systemctl --quiet disable gvom-test-vehicle
+  systemctl --quiet enable gvom-odometry
+}
+
+use_test_programs() {  # where the services' user finds them
+  install "$GVOM_BIN"/gvom-test-{vehicle,kills,hang} /usr/local/bin
 }
 
 start_all() {

@@ -1,0 +1,69 @@
+#!/usr/bin/env bash
+# Each process killed at random moments under the load of two lidars at 20 Hz, GVOM_FAULTS_REPEAT times (default 2), and with
+# GVOM_FAULTS_REPEAT stopped for 5 s: the others go on, it comes back, pools are as they were. A row of the table for each.
+# shellcheck source=common.bash
+source "$(dirname "$0")/common.bash"
+
+repeat=${GVOM_FAULTS_REPEAT:-2}
+stop_s=5
+stops=$((repeat < 10 ? repeat : 10))
+hangs=0
+rounds=/tmp/rounds.log
+
+# campaign PROCESS,PROCESS... ROUNDS [SECONDS]: gvom-test-kills, a line for each round. It leaves with 75 when the broker goes: a process
+# that dies within a publish may leave it waiting. Then all start again, as designed, and what is left of the rounds follows.
+campaign() {
+  local processes=$1 left=$2 kinds code
+  kinds=$(tr ',' '\n' <<< "$processes" | wc -l)
+  : > "$rounds"
+  while ((left > 0)); do
+    code=0
+    runuser -u gvom -- gvom-test-kills front,rear "$processes" "$left" "${@:3}" > /tmp/kills.log || code=$?
+    cat /tmp/kills.log
+    cat /tmp/kills.log >> "$rounds"
+    ((code == 0)) && break
+    ((code == 75)) || fail "$processes"
+    left=$((left - $(grep --count 'well again' /tmp/kills.log || true) / kinds - 1)) hangs=$((hangs + 1))
+    say "the broker hung and was started again"
+    eventually 20 are_active "${members[@]}" || fail "not all are back"
+  done
+  report "$processes" "${3:+stopped for $3 s}"
+}
+
+report() {  # report PROCESS,PROCESS... WORDS: a row for each: the slowest of its rounds
+  awk -v processes="$1" -v fault="${2:-killed (kill -9)}" '
+    / well again after / {
+      name = $1; sub(":", "", name); count[name]++
+      for (i = 2; i < NF; i++) {
+        if ($(i - 1) == "again" && $i == "after" && $(i + 1) > slowest[name]) slowest[name] = $(i + 1)
+        if ($i == "after" && $(i - 1) == "named") { named[name]++; if ($(i + 1) > latest[name]) latest[name] = $(i + 1) }
+        if ($i == "paused" && $(i + 1) > pause[name]) pause[name] = $(i + 1)
+      }
+    }
+    END {
+      for (i = split(processes, order, ","); i > 0; i--) {
+        name = order[i]
+        seen = named[name] ? "Layers name it as missing after " latest[name] " s at most" : "layers stop"
+        printf "FAULT | %s %s, %d times | %s | %s s at most, until the window is full | its own work meanwhile; the others paused %s s at most |\n", \
+          name, fault, count[name], seen, slowest[name], pause[name] + 0
+      }
+    }' "$rounds"
+}
+
+install_package
+use_test_programs
+use_recording
+cp "$vehicle" /tmp/replayed.yaml
+use_live_vehicle
+start_all
+live=gvom-fusion,gvom-ingest-front,gvom-ingest-rear
+campaign "$live" "$repeat"
+[[ -z ${GVOM_FAULTS_REPEAT:-} ]] || campaign "$live" "$stops" "$stop_s"
+stop_all
+use_replayed_vehicle /tmp/replayed.yaml
+start_all
+campaign gvom-odometry "$repeat"
+[[ -z ${GVOM_FAULTS_REPEAT:-} ]] || campaign gvom-odometry "$stops" "$stop_s"
+stop_all
+say "the broker hung $hangs times"
+say "well"
