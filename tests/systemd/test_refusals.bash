@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What a restart can't cure is not restarted; what may come later is tried slowly.
+# What a restart can't cure is not restarted; what may come later is tried slowly: memory, a GPU, files of others.
 # shellcheck source=common.bash
 source "$(dirname "$0")/common.bash"
 
@@ -40,9 +40,47 @@ check_missing_gpu() {
   eventually 20 are_active gvom-fusion || fail "fusion did not come back once it could"
 }
 
+has_said() { journalctl --unit "$1" --output cat | grep --quiet --fixed-strings "$2"; }
+
+# What others left in the way, or fill: tried again each second, and well once it is gone.
+check_full_memory() {
+  say "/dev/shm is full at the start"
+  fallocate --length "$(($(stat --file-system --format '%a * %S' /dev/shm)))" /dev/shm/others
+  systemctl start gvom.target
+  eventually 10 has_said gvom-roudi.service "bytes in /dev/shm" || fail "gvom-roudi did not say that /dev/shm is full"
+  if are_active gvom-fusion; then fail "gvom-fusion runs without a broker"; fi
+  rm /dev/shm/others
+  eventually 20 are_active "${members[@]}" || fail "not all came up once there was room"
+}
+
+check_foreign_files() {
+  local file
+  for file in /tmp/gvom-fusion.lock /tmp/gvom-fusion; do  # a lock, a socket
+    systemctl stop gvom-fusion
+    rm -f "$file"
+    install --mode 600 /dev/null "$file"
+    systemctl start --no-block gvom-fusion
+    eventually 10 has_said gvom-fusion.service "$file belongs to user 0" || fail "gvom-fusion did not name $file"
+    rm "$file"
+    eventually 10 are_active gvom-fusion || fail "gvom-fusion did not come up without $file"
+  done
+  say "another user's lock and socket are named, and waited for"
+}
+
+# All at once, as when the power goes: no process tidies up, and what they held stays locked in memory.
+check_leftovers() {
+  systemctl kill --signal KILL 'gvom-*'
+  systemctl stop gvom.target 'gvom-*'
+  [[ -e /tmp/roudi.lock && -e /dev/shm/iceoryx_mgmt ]] || fail "a kill of all leaves nothing behind?"
+  start_all
+  must_see_layers "after what a kill of all left behind"
+}
+
 install_package
 use_recording
-start_all
+check_full_memory
+check_foreign_files
+check_leftovers
 systemctl start gvom-ingest@left || true
 must_refuse gvom-ingest@left 78 "left"
 check_missing_gpu
