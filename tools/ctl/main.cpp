@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "services/common/log.hpp"
+#include "tools/common/broker_user.hpp"
 #include "tools/ctl/commands.hpp"
 #include "tools/ctl/vehicle.hpp"
 
@@ -75,7 +76,7 @@ int watch(const std::string& command, const Options& options) {
   auto expected = ctl::expected_of(options.config, options.sets);
   if (!expected) return say(expected.error());
   ctl::Units units;
-  if (!ctl::become_broker_user()) {
+  if (!tools::become_broker_user()) {
     spdlog::error("cannot become the user that the broker runs as: {}", std::strerror(errno));
     return to_int(ExitCode::unavailable);
   }

@@ -1,4 +1,4 @@
-// What gvomctl looks for, and as whom.
+// What gvomctl looks for.
 #pragma once
 
 #include <optional>
@@ -23,10 +23,6 @@ Expected expected_of(const services::VehicleConfig& config);
 /// Of the file at `path`; where that is empty, of kInstalledVehicle if it is there, else nothing.
 tl::expected<Expected, services::ConfigError> expected_of(const std::string& path,
                                                           const std::vector<std::string>& sets);
-
-/// As root: becomes the user and group that the broker runs as, for only they are let in. Call it with the
-/// configuration read. False, and errno, if that is refused.
-bool become_broker_user();
 
 /// From /proc and `units`, which must outlive it.
 Surroundings surroundings_of(Units& units);

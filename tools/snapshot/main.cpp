@@ -2,12 +2,15 @@
 // from a folder that gvom-map wrote.
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstring>
 #include <iostream>
 #include <string_view>
 #include <thread>
 
 #include "services/common/cli.hpp"
 #include "services/common/log.hpp"
+#include "tools/common/broker_user.hpp"
 #include "tools/snapshot/consumer.hpp"
 #include "tools/snapshot/folder.hpp"
 
@@ -72,6 +75,10 @@ ExitCode run_live(int argc, char** argv) {
   if (!config) return config.error();
   services::init_logging("gvom-snapshot");
 
+  if (!tools::become_broker_user()) {
+    spdlog::error("cannot become the user that the broker runs as: {}", std::strerror(errno));
+    return ExitCode::unavailable;
+  }
   options.output.numbered = options.every_s > 0;
   auto output = snapshot::Output::open(options.output);
   if (!output) {
