@@ -7,10 +7,10 @@
 #include <cstdio>
 #include <cstdlib>
 #include <random>
+#include <utility>
 
-#include "iceoryx_posh/popo/untyped_publisher.hpp"
 #include "ipc/broker_probe.hpp"
-#include "ipc/runtime.hpp"
+#include "ipc/port.hpp"
 #include "tests/ipc/processes.hpp"
 
 namespace {
@@ -18,14 +18,14 @@ namespace {
 using namespace gvom;
 using namespace std::chrono_literals;
 
-constexpr std::uint32_t kBytes = 64;
+constexpr std::size_t kBytes = sizeof(ipc::MessageHeader);
 
 void publish_for_ever() {
-  const auto runtime = ipc::Runtime::connect("gvom-test-hang", 5s);
+  auto runtime = ipc::Runtime::connect("gvom-test-hang", 5s);
   if (!runtime) return;
-  iox::popo::UntypedPublisher publisher({"gvom-test", "hang", "all"});
-  while (true) {
-    publisher.loan(kBytes).and_then([&](void* chunk) { publisher.publish(chunk); });
+  auto port = ipc::OutPort::open(*runtime, {"hang", "all", ipc::MessageType::progress, 1, nullptr, 1});
+  while (port) {
+    if (auto loan = port->loan(kBytes)) port->publish(std::move(*loan), kBytes, 0, 0);
   }
 }
 

@@ -78,7 +78,8 @@ class Campaign {
     while (!condition()) {
       log_.pump();
       if (!runtime_.broker_alive()) {
-        std::printf("the broker is gone while waiting: %s\n", what);
+        std::printf("%s: the broker hung, %.2f s after it\n", last_.process.c_str(),
+                    seconds(ipc::monotonic_ns() - last_.begin_ns));
         leave(75);
       }
       if (ipc::monotonic_ns() < deadline_ns) continue;
@@ -139,7 +140,7 @@ class Campaign {
     const auto before = log_.processes;
     const std::uint64_t epoch = log_.newest.header.epoch;
     log_.begin_anew();
-    const Fault fault = strike(process, before.at(process).pid);
+    const Fault fault = last_ = strike(process, before.at(process).pid);
     wait("it is back with a full window", [&] { return is_back(fault, epoch); });
     const std::int64_t back_ns = ipc::monotonic_ns();
     std::printf("%s: well again after %.2f s", process.c_str(), seconds(back_ns - fault.cure_ns));
@@ -210,6 +211,7 @@ class Campaign {
   BusLog log_;
   std::mt19937 random_{std::random_device{}()};
   std::uniform_int_distribution<int> moment_us_{100'000, 400'000};
+  Fault last_;
   int failures_ = 0;
 };
 
