@@ -20,8 +20,9 @@ enum class SendMode : int {
 };
 
 struct Board {
-  std::atomic<std::uint64_t> epoch{0};  ///< Of the newest odometry; its value is CLOCK_MONOTONIC, ns.
-  std::atomic<bool> hold{true};         ///< No round of packets begins.
+  std::atomic<std::uint64_t> epoch{0};    ///< Of the newest odometry.
+  std::atomic<std::int64_t> begin_ns{0};  ///< CLOCK_MONOTONIC of that epoch's first pose; set before it.
+  std::atomic<bool> hold{true};           ///< No round of packets begins.
   PerLidar<std::atomic<SendMode>> modes{};
 };
 

@@ -32,7 +32,7 @@ class Feeder {
   /// Sends one round, if one begins now. False if nobody reads our notes.
   bool step() {
     const std::uint64_t epoch = board_.epoch;
-    const auto begin_ns = static_cast<std::int64_t>(epoch);
+    const std::int64_t begin_ns = board_.begin_ns;
     const bool fresh = epoch != epoch_ && ipc::monotonic_ns() - begin_ns < kLatestBegin_ns;
     if (!fresh || board_.hold) {
       std::this_thread::sleep_for(kLook);

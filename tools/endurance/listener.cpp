@@ -109,7 +109,7 @@ class Listener {
   bool pass_on() {
     waiter_.wait(kLongestWait);
     bool read = true;
-    while (const auto odometry = odometry_.take()) board_.epoch = (*odometry)->header.epoch;
+    while (const auto odometry = odometry_.take()) take((*odometry)->header);
     while (auto chunk = layers_.take())
       read = send_note(socket_, NoteKind::layers,
                        note_of(ipc::LayersSample(std::move(*chunk)), layers_.counters().lost)) &&
@@ -135,6 +135,14 @@ class Listener {
         voxels_(std::move(voxels)),
         pools_(std::move(pools)),
         waiter_(std::move(waiter)) {}
+
+  /// An epoch is the time at which its round began; but the first one of a process waits for its readers.
+  void take(const ipc::MessageHeader& odometry) {
+    if (odometry.epoch == board_.epoch) return;
+    const bool first = odometry.sequence == 1;
+    board_.begin_ns = first ? ipc::monotonic_ns() : static_cast<std::int64_t>(odometry.epoch);
+    board_.epoch = odometry.epoch;
+  }
 
   Board& board_;
   int socket_;
