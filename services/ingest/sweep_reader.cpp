@@ -18,7 +18,8 @@ SweepReader::SweepReader(std::unique_ptr<Source> source, std::size_t max_returns
       on_change_(std::move(on_change)),
       warned_(source_->warnings().size()) {
   for (Sweep& sweep : sweeps_) {
-    sweep.returns.reserve(max_returns);
+    sweep.returns.resize(max_returns);  // touched now, not when the loop first falls behind
+    sweep.returns.clear();
     sweep.times_ns.reserve(max_returns);
     free_[static_cast<std::size_t>(free_count_++)] = &sweep;
   }
