@@ -28,7 +28,7 @@ TEST_CASE("growth is told for an hour") {
   const auto growth = growth_of(line(400, 0, 2), 0);
   REQUIRE(growth);
   CHECK(growth->change() == Approx(600));  // three quarters of the time lie between the two
-  CHECK(growth->per_hour() == Approx(7200));
+  CHECK(growth->per_hour() == Approx(7200).epsilon(0.01));
 }
 
 TEST_CASE("what was before the warm-up's end counts for nothing") {
@@ -46,7 +46,7 @@ TEST_CASE("a few samples tell nothing") {
 
 TEST_CASE("days of samples fit in bounded memory and tell the same") {
   const Series series = line(300'000, 10, 0.5);
-  CHECK(series.points().size() <= 4096);
+  CHECK(series.points().size() <= 1024);
   CHECK(growth_of(series, 0)->per_hour() == Approx(1800).epsilon(0.01));
 }
 

@@ -14,7 +14,7 @@ namespace gvom::endurance {
 
 namespace {
 
-constexpr std::int64_t kLatestBegin_ns = 300'000'000;  // a round that is older is not begun
+constexpr std::int64_t kLatestBegin_ns = 300'000'000;  // a round that is older is begun in its middle
 constexpr std::chrono::milliseconds kLook{1};          // for the next round
 constexpr std::size_t kFrameAt = 2;
 constexpr std::size_t kLongestGarbage = 2000;
@@ -33,21 +33,25 @@ class Feeder {
   bool step() {
     const std::uint64_t epoch = board_.epoch;
     const std::int64_t begin_ns = board_.begin_ns;
-    const bool fresh = epoch != epoch_ && ipc::monotonic_ns() - begin_ns < kLatestBegin_ns;
-    if (!fresh || board_.hold) {
+    const bool late = ipc::monotonic_ns() - begin_ns > kLatestBegin_ns;
+    const bool may_be_late = epoch_ != 0;  // not in the very first round
+    if (epoch == epoch_ || board_.hold || (late && !may_be_late)) {
       std::this_thread::sleep_for(kLook);
       return true;
     }
     epoch_ = epoch;
     if (!tell(NoteKind::round_begin, 0)) return false;
-    const bool whole = send_round(begin_ns);
-    for (std::size_t i = 0; i < next_frame_.size(); ++i) first_frame_[i] = next_frame_[i];
+    const std::int64_t from_ns = late ? ipc::monotonic_ns() - begin_ns : 0;
+    skip_frames(from_ns);
+    const bool whole = send_round(begin_ns, from_ns) && !late;
+    first_frame_ = next_frame_;
     return tell(NoteKind::round_end, whole ? 1 : 0);
   }
 
  private:
-  bool send_round(std::int64_t begin_ns) {
+  bool send_round(std::int64_t begin_ns, std::int64_t from_ns) {
     for (TimedPacket& packet : recording_.packets) {
+      if (packet.due_ns < from_ns) continue;
       while (true) {
         const std::int64_t left_ns = begin_ns + packet.due_ns - ipc::monotonic_ns();
         if (board_.epoch != epoch_) return false;
@@ -57,6 +61,16 @@ class Feeder {
       send(packet);
     }
     return true;
+  }
+
+  /// Whoever begins in the middle counts from there.
+  void skip_frames(std::int64_t from_ns) {
+    PerLidar<bool> seen{};
+    for (const TimedPacket& packet : recording_.packets) {
+      if (packet.due_ns < from_ns || seen[packet.lidar]) continue;
+      seen[packet.lidar] = true;
+      first_frame_[packet.lidar] = static_cast<std::uint16_t>(first_frame_[packet.lidar] - packet.frame);
+    }
   }
 
   // Frames go on counting over the rounds, as those of a sensor that keeps turning.

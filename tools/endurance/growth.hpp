@@ -19,7 +19,7 @@ class Series {
   [[nodiscard]] const std::vector<Point>& points() const { return points_; }
 
  private:
-  static constexpr std::size_t kMost = 4096;
+  static constexpr std::size_t kMost = 1024;
   std::vector<Point> points_;
   std::size_t stride_ = 1;
   std::size_t since_kept_ = 0;

@@ -1,5 +1,7 @@
 // gvom-soak: the whole graph under live packets for as long as asked for, and a verdict on it. tools/soak
 // runs it.
+#include <malloc.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
@@ -73,6 +75,7 @@ int soak(Options& options) {
                        std::vector<std::string>{"--config", options.config}, options.soak.lidars);
   endurance::Soak soak(options.soak, *recording, *board, supervisor ? &*supervisor : nullptr, lifecycle);
   recording = {};  // the process that sends it has its own
+  ::malloc_trim(0);
   const ExitCode ran = soak.run();
   if (supervisor) supervisor->stop();
   if (ran != ExitCode::ok) return to_int(ran);

@@ -61,6 +61,7 @@ ExitCode Soak::run() {
   if (!wait_until_up()) return ExitCode::unavailable;
   feed();
   finish();
+  listener_.ended(ipc::monotonic_ns());  // before the broker goes
   return ExitCode::ok;
 }
 
