@@ -2,7 +2,7 @@
 
 #include "ipc/broker_probe.hpp"
 #include "ipc/runtime.hpp"
-#include "tools/ctl/vehicle.hpp"
+#include "tools/common/broker_user.hpp"
 #include "tools/endurance/listener.hpp"
 
 namespace gvom::endurance {
@@ -23,7 +23,7 @@ void ListenerKeeper::step(std::int64_t now_ns) {
   if (child_ || now_ns < next_start_ns_ || !ipc::broker_answers()) return;
   heard_ns_ = now_ns;
   child_ = std::make_unique<Child>(
-      [this](int socket) { return ctl::become_broker_user() ? listen_on_bus(board_, socket) : 1; });
+      [this](int socket) { return tools::become_broker_user() ? listen_on_bus(board_, socket) : 1; });
 }
 
 void ListenerKeeper::heard(std::int64_t now_ns) {
