@@ -38,6 +38,13 @@ TEST_CASE("what was before the warm-up's end counts for nothing") {
   CHECK(growth_of(series, 0)->change() > 0);
 }
 
+TEST_CASE("what comes and goes with the load is measured when it is least") {
+  Series busy;
+  for (int i = 0; i < 200; ++i) busy.add(i, i % 10 == 0 ? 12 : (i < 100 ? 30 : 80));
+  CHECK(growth_of(busy, 0)->change() == 50);
+  CHECK(growth_of(busy, 0, Measure::least)->change() == 0);
+}
+
 TEST_CASE("a few samples tell nothing") {
   CHECK_FALSE(growth_of(line(static_cast<int>(kLeastSamples) - 1, 0, 1), 0));
   CHECK(growth_of(line(static_cast<int>(kLeastSamples), 0, 1), 0));

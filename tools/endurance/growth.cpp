@@ -6,10 +6,12 @@ namespace gvom::endurance {
 
 namespace {
 
-double median_of(std::vector<Point>::const_iterator begin, std::vector<Point>::const_iterator end) {
+double measured(std::vector<Point>::const_iterator begin, std::vector<Point>::const_iterator end,
+                Measure measure) {
   std::vector<double> values;
   std::transform(begin, end, std::back_inserter(values), [](const Point& point) { return point.value; });
-  return median(std::move(values));
+  return measure == Measure::median ? median(std::move(values))
+                                    : *std::min_element(values.begin(), values.end());
 }
 
 }  // namespace
@@ -31,7 +33,7 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-std::optional<Growth> growth_of(const Series& series, double from_s) {
+std::optional<Growth> growth_of(const Series& series, double from_s, Measure measure) {
   const auto& points = series.points();
   const auto begin = std::find_if(points.begin(), points.end(),
                                   [from_s](const Point& point) { return point.at_s >= from_s; });
@@ -41,8 +43,8 @@ std::optional<Growth> growth_of(const Series& series, double from_s) {
   const auto most =
       std::max_element(begin, points.end(), [](const Point& a, const Point& b) { return a.value < b.value; });
   const double apart_s = (points.end() - 1 - quarter / 2)->at_s - (begin + quarter / 2)->at_s;
-  return Growth{median_of(begin, begin + quarter), median_of(points.end() - quarter, points.end()),
-                most->value, apart_s / 3600};
+  return Growth{measured(begin, begin + quarter, measure),
+                measured(points.end() - quarter, points.end(), measure), most->value, apart_s / 3600};
 }
 
 }  // namespace gvom::endurance

@@ -28,8 +28,13 @@ class Series {
 /// 0 if there are none.
 double median(std::vector<double> values);
 
+enum class Measure {
+  median,
+  least,  ///< Of what comes and goes with the load: what is lost is missing from the lowest, too.
+};
+
 struct Growth {
-  double first;  ///< Median of the first quarter of the samples.
+  double first;  ///< The measure of the first quarter of the samples.
   double last;   ///< ... of the last.
   double most;   ///< Of all.
   double hours;  ///< Between the middles of the two.
@@ -38,7 +43,7 @@ struct Growth {
 };
 
 /// Of the samples from `from_s` on; nothing if they are fewer than kLeastSamples.
-std::optional<Growth> growth_of(const Series& series, double from_s);
+std::optional<Growth> growth_of(const Series& series, double from_s, Measure measure = Measure::median);
 
 inline constexpr std::size_t kLeastSamples = 40;
 

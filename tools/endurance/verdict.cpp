@@ -16,10 +16,13 @@ std::string text(const char* format, Arguments... arguments) {
   return line;
 }
 
-void judge(const std::string& what, const std::string& unit, const Series& series, double from_s,
-           double bound, std::vector<Judged>& out) {
-  if (const auto growth = growth_of(series, from_s))
-    out.push_back({what, unit, *growth, bound, growth->change() > bound});
+/// A row; its judgement follows when its samples are enough.
+void judge(Judged row, const Series& series, double from_s, Measure measure, std::vector<Judged>& out) {
+  const auto growth = growth_of(series, from_s, measure);
+  if (!growth) return;
+  row.growth = *growth;
+  row.leaks = growth->change() > row.bound;
+  out.push_back(std::move(row));
 }
 
 void append(const Lines& more, Lines& lines) {
@@ -84,14 +87,19 @@ std::vector<Judged> judge_growth(const Record& record) {
     for (const Life& life : known.lives) {
       const double from_s = life.begin_s + record.warm_up_s();
       const std::string name = process + " (" + std::to_string(life.pid) + "): ";
-      judge(name + "private memory", "bytes", life.private_bytes, from_s, kMostGrowth_bytes, all);
-      judge(name + "descriptors", "descriptors", life.descriptors, from_s, 0, all);
-      judge(name + "threads", "threads", life.threads, from_s, 0, all);
+      const auto steady = [&](const char* what, const char* unit, const Series& series, double bound) {
+        judge({name + what, unit, {}, bound, false}, series, from_s, Measure::median, all);
+      };
+      steady("private memory", "bytes", life.private_bytes, kMostGrowth_bytes);
+      steady("descriptors", "descriptors", life.descriptors, 0);
+      steady("threads", "threads", life.threads, 0);
     }
   for (const PoolLife& life : record.pools())
-    for (std::size_t i = 0; i < life.used.size(); ++i)
-      judge("pool of " + std::to_string(life.newest[i].chunk_bytes) + " bytes", "chunks", life.used[i],
-            life.begin_s + record.warm_up_s(), kMostChunks, all);
+    for (std::size_t i = 0; i < life.used.size(); ++i) {
+      const std::string name = "pool of " + std::to_string(life.newest[i].chunk_bytes) + " bytes";
+      judge({name, "chunks", {}, kMostChunks, false}, life.used[i], life.begin_s + record.warm_up_s(),
+            Measure::least, all);
+    }
   return all;
 }
 

@@ -17,7 +17,7 @@ namespace gvom::endurance {
 /// Private memory: pages come one by one when a code path is taken first; a loss of 64 bytes for every map of
 /// one lidar is more than this in half an hour.
 inline constexpr double kMostGrowth_bytes = 1024 * 1024;
-inline constexpr double kMostChunks = 1;    ///< Used ones of a pool: maps under way.
+inline constexpr double kMostChunks = 1;    ///< Used ones of a pool, when they are fewest: maps under way.
 inline constexpr double kLeastClean = 0.9;  ///< Share of the rounds, without faults made.
 
 /// Everything that is judged.
