@@ -55,6 +55,19 @@ void add_keys(const std::vector<Row<Config>>& rows, const std::string& prefix, s
   }
 }
 
+const std::set<std::string>& vehicle_keys() {
+  static const std::set<std::string> kKeys = [] {
+    std::set<std::string> keys = {kLidars};
+    add_keys(vehicle_rows(), "", keys);
+    return keys;
+  }();
+  return kKeys;
+}
+
+std::size_t difference(std::size_t a, std::size_t b) {
+  return a > b ? a - b : b - a;
+}
+
 }  // namespace
 
 std::optional<LidarKey> split_lidar_key(const std::string& key) {
@@ -82,20 +95,23 @@ bool is_section(const std::string& key) {
 std::string nearest_key(const std::string& key) {
   constexpr std::size_t kLongest = 128;  // farther than that from any key, and slow to compare
   if (key.size() > kLongest) return "";
-  std::set<std::string> keys = {kLidars};
-  add_keys(vehicle_rows(), "", keys);
+  std::set<std::string> lidar_keys;
   if (const auto lidar_key = split_lidar_key(key))
-    add_keys(lidar_rows(), kLidarsDot + lidar_key->name + ".", keys);
+    add_keys(lidar_rows(), kLidarsDot + lidar_key->name + ".", lidar_keys);
   const std::size_t leaf_length = key.size() - (key.rfind('.') + 1);  // npos + 1 is 0
   std::size_t too_far = std::max<std::size_t>(2, leaf_length / 3) + 1;
   std::string nearest;
-  for (const std::string& candidate : keys) {
-    if (std::max(key.size(), candidate.size()) - std::min(key.size(), candidate.size()) >= too_far) continue;
-    const std::size_t distance = edit_distance(key, candidate);
-    if (distance >= too_far) continue;
-    too_far = distance;
-    nearest = candidate;
-  }
+  const auto look_through = [&](const std::set<std::string>& candidates) {
+    for (const std::string& candidate : candidates) {
+      if (difference(key.size(), candidate.size()) >= too_far) continue;
+      const std::size_t distance = edit_distance(key, candidate);
+      if (distance >= too_far) continue;
+      too_far = distance;
+      nearest = candidate;
+    }
+  };
+  look_through(vehicle_keys());
+  look_through(lidar_keys);
   return nearest;
 }
 
