@@ -56,11 +56,12 @@ class Campaign {
       : task_(std::move(task)), runtime_(runtime), log_(std::move(log)) {}
 
   bool run() {
-    const bool kills = task_.stop_s <= 0;
-    const auto before = kills ? pools() : std::vector<std::uint32_t>{};
+    const std::size_t kills = task_.stop_s > 0 ? 0 : task_.rounds * task_.processes.size();
+    const bool can_tell = kills > kStrayChunks;  // a chunk lost with each
+    const auto before = can_tell ? pools() : std::vector<std::uint32_t>{};
     for (int round = 0; round < task_.rounds; ++round)
       for (const std::string& process : task_.processes) play(process);
-    const auto after = kills ? pools() : before;
+    const auto after = can_tell ? pools() : before;
     for (std::size_t i = 0; i < before.size(); ++i) {
       std::printf("pool %zu: %u chunks in use, %u before", i, after[i], before[i]);
       check(after[i] <= before[i] + kStrayChunks, "some are lost");

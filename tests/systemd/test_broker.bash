@@ -65,7 +65,7 @@ check() {  # check SEEN COMMAND: as often as asked for, then a row
     $((slowest / 1000)) $((slowest % 1000 / 10)) $((full / 1000)) $((full % 1000 / 10))
 }
 
-install_package
+unpack_package
 use_test_programs
 use_recording
 use_live_vehicle

@@ -49,7 +49,7 @@ report() {  # report PROCESS,PROCESS... WORDS: a row for each: the slowest of it
     }' "$rounds"
 }
 
-install_package
+unpack_package
 use_test_programs
 use_recording
 cp "$vehicle" /tmp/replayed.yaml

@@ -30,10 +30,10 @@ check_missing_gpu() {
   systemctl restart --no-block gvom-fusion
   eventually 20 has_restarted || fail "gvom-fusion without its GPU is not started again"
   before=$(property gvom-fusion NRestarts) start=$(now_ms)
-  sleep 5
+  sleep 3
   local more=$(($(property gvom-fusion NRestarts) - before))
   say "fusion without its GPU: $more more starts in $(($(now_ms) - start)) ms"
-  ((more <= 6)) || fail "that is too often"
+  ((more <= 4)) || fail "that is too often"
   are_active gvom-ingest@front gvom-roudi || fail "others suffer from it"
   rm -r /etc/systemd/system/gvom-fusion.service.d
   systemctl daemon-reload
@@ -76,7 +76,8 @@ check_leftovers() {
   must_see_layers "after what a kill of all left behind"
 }
 
-install_package
+unpack_package
+use_small_map
 use_recording
 check_full_memory
 check_foreign_files

@@ -32,7 +32,8 @@ use_examples() {
   systemctl daemon-reload
 }
 
-install_package
+unpack_package
+use_small_map
 for unit in "${units[@]}"; do check_unit "$unit"; done
 systemd-analyze verify gvom.target || fail "gvom.target"
 use_examples
