@@ -64,7 +64,10 @@ TEST_CASE("a killed ingest or fusion comes back, the others go on, and no chunk 
     INFO("pool " << pool << ": " << before[pool] << " chunks in use before, " << after[pool] << " after");
     CHECK(after[pool] <= before[pool] + 2);
   }
-  CHECK(observer.drops("gvom-fusion") == "");
+  // Not all drops: on a busy machine a map may come after its window's time, or after its epoch.
+  CHECK(observer.counter("gvom-fusion", "drop_layers_no_chunk") == 0);
+  CHECK(observer.counter("gvom-ingest-front", "drop_no_chunk") == 0);
+  CHECK(observer.counter("gvom-ingest-rear", "drop_no_chunk") == 0);
   graph.stop();
 }
 
