@@ -20,7 +20,6 @@ constexpr std::uint64_t kDataId = 0;
 constexpr std::uint64_t kWakeId = 1;
 constexpr std::uint64_t kOverdueId = 2;
 constexpr std::chrono::milliseconds kLook{100};
-constexpr std::chrono::microseconds kStepAside{50};
 
 /// Calls when a wait is overdue: those of iceoryx end by the wall clock, and one that is set back by an hour
 /// would make each an hour longer.
@@ -104,12 +103,7 @@ WaitResult Waiter::wait(std::chrono::milliseconds timeout) {
                        [id](const auto* cause) { return cause->getNotificationId() == id; });
   };
   if (has(kWakeId)) return WaitResult::woken;
-  if (!has(kDataId)) return WaitResult::timeout;
-  // The publisher woke us with its lock held. On a busy processor we have taken its place and would keep it
-  // for a whole computation; if it is killed meanwhile, the broker waits for that lock for ever. So it goes
-  // first.
-  std::this_thread::sleep_for(kStepAside);
-  return WaitResult::data;
+  return has(kDataId) ? WaitResult::data : WaitResult::timeout;
 }
 
 void Waiter::wake() {
