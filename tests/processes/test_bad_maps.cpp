@@ -83,7 +83,6 @@ BrickMapWriter copy_of(const BrickMapSample& map, BrickMapPublisher& publisher) 
     spoil(copy, static_cast<std::size_t>(sent) % std::size(kCounters));
     const auto& header = map->header().header;
     liar.publish(std::move(copy), header.stamp_ns, header.epoch + (sent / 4 % 2 == 0 ? 0 : 7));
-    lies.reach(2 + sent);
   }
 }
 
@@ -121,7 +120,9 @@ void check_bad_maps(const std::vector<std::string>& sets, const std::string& var
   Child liar([&] { live_as_liar(graph.vehicle(), lies); });
   REQUIRE(lies.wait_for(1));
 
-  const auto odometry = graph.replay({"--rate", "1", "--wait-readers", "1"});
+  // Lossless for the lidar that there is: nothing waits for the liar, who sends as much as he gets to see.
+  Program odometry("gvom-odometry", front.arguments({"--rate", "max"}), folder.path());
+  CHECK(odometry.wait() == 0);
   const auto degraded = static_cast<std::uint32_t>(gvom::ipc::HealthState::degraded);
   std::string reason;
   CHECK(eventually([&] {
@@ -130,15 +131,18 @@ void check_bad_maps(const std::vector<std::string>& sets, const std::string& var
     return reason.find("lidar rear: map refused: ") == 0;
   }));
   INFO("fusion said: " << reason);
-  CHECK(odometry->wait() == 0);
-  CHECK(lies.wait_for(1 + kSweeps));
+  CHECK(eventually([&] { return observer.counter(kFusion, "maps_fused") == kSweeps; }));
+  const auto refused = [&] {
+    std::uint64_t sum = 0;
+    for (const char* counter : kCounters) sum += observer.counter(kFusion, counter);
+    return sum;
+  };
+  CHECK(eventually([&] { return observer.counter(kFusion, "maps_in") == kSweeps + refused(); }));
   for (const char* counter : kCounters) {
     INFO(counter);
-    CHECK(eventually([&] { return observer.counter(kFusion, counter) == kSweeps / std::size(kCounters); }));
+    CHECK(observer.counter(kFusion, counter) > 0);
   }
   CHECK(graph.fusion().runs());
-  CHECK(observer.counter(kFusion, "maps_fused") == kSweeps);
-  CHECK(observer.counter(kFusion, "maps_in") == 2 * kSweeps);
   CHECK(observer.counter(kFusion, "epochs") == 0);
   CHECK(observer.newest_layers().lidars[1].missing == 1);
   CHECK(snapshot->stop() == 0);
