@@ -97,9 +97,9 @@ stop_all() {  # as the README says it: waits for all
 
 layers_come() {  # who joins a broker that hangs or dies just then waits for a minute: hence timeout
   rm -rf /tmp/pictures
-  timeout 3 gvom-snapshot --config "$vehicle" --once --out /tmp/pictures > /tmp/snapshot.log 2>&1
+  timeout 6 gvom-snapshot --config "$vehicle" --once --out /tmp/pictures > /tmp/snapshot.log 2>&1
 }
 
 must_see_layers() {
-  eventually 10 layers_come || { cat /tmp/snapshot.log; fail "no layers came: $*"; }
+  eventually 20 layers_come || { cat /tmp/snapshot.log; fail "no layers came: $*"; }
 }
