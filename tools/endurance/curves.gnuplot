@@ -19,7 +19,7 @@ colour(i) = colours[1 + (i - 1) % 12]
 bus = folder."/bus.csv"
 
 set title "private memory, MB"
-set key outside right top vertical
+set key inside right center
 plot for [i = 1:words(names)] file(i) using 1:2 linewidth 1.5 linecolor rgb colour(i) title word(names, i)
 set key inside top right
 set title "private memory: change since the warm-up, kB"

@@ -58,7 +58,6 @@ void HealthWatch::compare(const std::string& process, const ipc::Health& before,
   const bool not_yet = health.state == static_cast<std::uint32_t>(ipc::HealthState::starting);
   if (is_ok(health) || (not_yet && restarts_.count(process) == 0)) return;
   const std::string what = process + " " + tools::to_string(static_cast<ipc::HealthState>(health.state));
-  disturb(what);
   Complaint& complaint = complaints_[what];
   ++complaint.messages;
   complaint.newest = ipc::text_of(health.reason);

@@ -15,7 +15,8 @@ class HealthWatch {
  public:
   explicit HealthWatch(std::vector<std::string> expected) : expected_(std::move(expected)) {}
 
-  /// What was lost or is not as it should be disturbs the rounds since the Health before.
+  /// What was lost, and who began anew, disturbs the rounds since the Health before. What it complains of is
+  /// noted.
   void take(const ipc::Health& health, RoundBook& rounds);
   /// A process that has said nothing for a while.
   void look_for_silence(std::int64_t now_ns, RoundBook& rounds) const;

@@ -50,10 +50,10 @@ void Sampler::take(const LayersNote& note) {
   latency_now_.record_ns(note.published_mono_ns - note.received_mono_ns);
 }
 
-void Sampler::take(const std::vector<ipc::PoolUse>& pools, std::int64_t now_ns) {
+void Sampler::take(const std::vector<ipc::PoolUse>& pools, std::int64_t now_ns, bool steady) {
   chunks_used_ = 0;
   for (const ipc::PoolUse& pool : pools) chunks_used_ += pool.used;
-  if (begin_ns_ != 0) record_.add(pools, ipc::broker_pid().value_or(0), run_s(now_ns));
+  if (begin_ns_ != 0 && steady) record_.add(pools, ipc::broker_pid().value_or(0), run_s(now_ns));
 }
 
 void Sampler::sample(std::int64_t now_ns, const std::vector<std::pair<std::string, pid_t>>& processes,

@@ -23,7 +23,8 @@ class Sampler {
 
   void begin(std::int64_t now_ns);
   void take(const LayersNote& note);
-  void take(const std::vector<ipc::PoolUse>& pools, std::int64_t now_ns);
+  /// `steady`: the window is full and no fault is made, so that pools can be compared with later ones.
+  void take(const std::vector<ipc::PoolUse>& pools, std::int64_t now_ns, bool steady);
 
   /// `processes`: who is looked at. Does nothing until a second has passed.
   void sample(std::int64_t now_ns, const std::vector<std::pair<std::string, pid_t>>& processes,

@@ -23,6 +23,7 @@ constexpr std::int64_t kUp_ns = 60 * kSecond_ns;
 constexpr std::int64_t kLastRound_ns = 60 * kSecond_ns;  // it, and the fault under way, may take so long
 constexpr std::int64_t kLastLooks_ns = 3'500'000'000;    // at everybody's Health, more than twice
 constexpr std::int64_t kFlowing_ns = kSecond_ns;
+constexpr std::int64_t kSteady_ns = 1'200'000'000;  // the window is full again
 
 std::vector<std::string> processes_of(const std::vector<std::string>& lidars) {
   std::vector<std::string> names{"gvom-fusion", "gvom-odometry"};
@@ -67,6 +68,7 @@ ExitCode Soak::run() {
 
 void Soak::step() {
   const std::int64_t now_ns = ipc::monotonic_ns();
+  if (!round_is_open_ || faults_.is_under_way()) unsteady_ns_ = now_ns;
   if (watchdog_) watchdog_->step(now_ns, health_, listener_.on_bus_ns(now_ns));
   listener_.step(now_ns);
   receive();
@@ -162,7 +164,7 @@ void Soak::take(const Note& note) {
       pauses_.take(note.as<ipc::Health>());
       break;
     case NoteKind::pools:
-      sampler_.take(note.list_of<ipc::PoolUse>(), now_ns);
+      sampler_.take(note.list_of<ipc::PoolUse>(), now_ns, now_ns - unsteady_ns_ > kSteady_ns);
       break;
     case NoteKind::round_begin:
       return take_round(note.as<RoundNote>(), true);
@@ -182,6 +184,7 @@ void Soak::take_layers(const LayersNote& note) {
 
 void Soak::take_round(const RoundNote& note, bool begins) {
   round_is_open_ = begins;
+  unsteady_ns_ = note.mono_ns;
   run_.packets_sent = 0;
   for (const std::uint64_t sent : note.sent) run_.packets_sent += sent;
   if (begins) {

@@ -71,6 +71,7 @@ class Soak {
   Run run_;
   bool feeding_ = false;
   bool round_is_open_ = false;
+  std::int64_t unsteady_ns_ = 0;  // when last a round began or ended, or a fault was under way
   LayersNote newest_layers_{};
 };
 
