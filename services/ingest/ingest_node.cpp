@@ -197,13 +197,15 @@ bool IngestNode::is_settled() const {
   return stamp_ns ? !is_due(*stamp_ns) : reader_.at_end();
 }
 
+// Only a replay that waits for its readers wants to know at once; each message costs all of them a wake-up.
 void IngestNode::publish_progress() {
   const std::int64_t now_ns = ipc::monotonic_ns();
   ipc::Progress progress{};
   progress.odometry_sequence = acknowledged_sequence_;
   progress.maps_published = bus_.maps.sequence();
   const bool news = progress.odometry_sequence != told_odometry_ || progress.maps_published != told_maps_;
-  if (!news && now_ns < next_progress_ns_) return;
+  const bool awaited = lossless_ || end_of_stream_;
+  if (!(news && awaited) && now_ns < next_progress_ns_) return;
   ipc::set_text(progress.reader, lidar_.name);
   const std::int64_t stamp_ns = odometry_.empty() ? 0 : odometry_.newest_ns();
   if (!bus_.own_progress.publish(progress, stamp_ns, epoch_)) return;
