@@ -52,10 +52,8 @@ use_small_map() {  # less memory for the broker to write
   echo 'map: {size_xy: 128, size_z: 32}' >> "$vehicle"
 }
 
-use_recording() {  # and over and over again
+use_recording() {  # over and over again, as gvom-odometry.service does
   cp "$GVOM_RECORDING"/* /var/lib/gvom/
-  mkdir -p /etc/systemd/system/gvom-odometry.service.d
-  printf '%s\n' '[Service]' Environment=ARGUMENTS=--loop > /etc/systemd/system/gvom-odometry.service.d/loop.conf
   systemctl daemon-reload
   systemctl --quiet enable gvom-ingest@front gvom-ingest@rear gvom-odometry
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "tools/ctl/commands.hpp"
@@ -11,9 +12,11 @@
 namespace gvom::ctl {
 
 Findings check_vehicle(const services::VehicleConfig& config) {
-  Findings findings = {{Level::ok, "configuration",
-                        fmt::format("{}: vehicle '{}' with {} lidar{}", config.path, config.name,
-                                    config.lidars.size(), config.lidars.size() == 1 ? "" : "s")}};
+  Findings findings = {
+      {Level::ok, "configuration",
+       fmt::format("{}: vehicle '{}' with {} lidar{}; relative paths begin in {}", config.path, config.name,
+                   config.lidars.size(), config.lidars.size() == 1 ? "" : "s",
+                   std::filesystem::current_path().string())}};
   for (const auto check : {check_memory, check_lidars, check_machine})
     for (Finding& finding : check(config)) findings.push_back(std::move(finding));
   return findings;
