@@ -2,7 +2,8 @@
 // moments, in turn, so often each, and holds everything else to what it must do meanwhile; with SECONDS it
 // stops them for so long instead (SIGSTOP). Joins the bus, so it runs as the user of the services, which live
 // under a supervisor. A line for each kill. Exit codes: 0 all was well, 1 not so, 75 the broker went away in
-// between (to be called again).
+// between (to be called again). The bounds on times are those that tools/faults holds the graph to
+// (GVOM_FAULTS_REPEAT is set); without, as among other tests on a busy machine, they are ten times as long.
 #include <signal.h>
 #include <unistd.h>
 
@@ -24,8 +25,8 @@ using test::BusLog;
 
 constexpr std::uint32_t kFull = 8;                     // maps of each lidar: window.buffer_size
 constexpr std::int64_t kPatience_ns = 20'000'000'000;  // for what has no bound of its own
-constexpr std::int64_t kWindowWithin_ns = 1'500'000'000;
-constexpr std::int64_t kNamedWithin_ns = 500'000'000;
+constexpr double kWindowWithin_s = 1.5;
+constexpr double kNamedWithin_s = 0.5;
 constexpr double kOthersPause_s = 1;
 constexpr std::uint32_t kStrayChunks = 2;  // in flight at the moment of a report
 constexpr int kReports = 2;
@@ -48,6 +49,11 @@ struct Fault {
 
 double seconds(std::int64_t ns) {
   return static_cast<double>(ns) * 1e-9;
+}
+
+bool is_within(std::int64_t took_ns, double bound_s) {
+  static const bool strict = std::getenv("GVOM_FAULTS_REPEAT") != nullptr;
+  return seconds(took_ns) < (strict ? bound_s : 10 * bound_s);
 }
 
 class Campaign {
@@ -158,7 +164,7 @@ class Campaign {
       }
     }
     std::printf("\n");
-    check(process != "gvom-fusion" || task_.stop_s > 0 || back_ns - fault.cure_ns < kWindowWithin_ns,
+    check(process != "gvom-fusion" || task_.stop_s > 0 || is_within(back_ns - fault.cure_ns, kWindowWithin_s),
           "that is too slow");
     wait("all are heard again", [&] { return all_well_since(back_ns); });
     check_pids(process, before);
@@ -181,9 +187,9 @@ class Campaign {
   }
 
   void judge_other(const BusLog::Lidar& other, std::int64_t now_ns) {
-    const double gap_s = seconds(other.maps.gap_ns(now_ns));
-    std::printf(", %s paused %.2f s", other.name.c_str(), gap_s);
-    check(gap_s < kOthersPause_s, "%s stood still", other.name.c_str());
+    const std::int64_t gap_ns = other.maps.gap_ns(now_ns);
+    std::printf(", %s paused %.2f s", other.name.c_str(), seconds(gap_ns));
+    check(is_within(gap_ns, kOthersPause_s), "%s stood still", other.name.c_str());
   }
 
   /// A lidar's death: it is named as missing in time, or was back before that; the others keep their share.
@@ -191,12 +197,12 @@ class Campaign {
     if (victim.named_missing_ns != 0) {
       const std::int64_t named_ns = victim.named_missing_ns - fault.begin_ns;
       std::printf(", named after %.2f s", seconds(named_ns));
-      check(named_ns < kNamedWithin_ns, "that is too late");
+      check(is_within(named_ns, kNamedWithin_s), "that is too late");
     } else {
-      check(victim.maps.longest_gap_ns < kNamedWithin_ns, "%s was never named", victim.name.c_str());
+      check(is_within(victim.maps.longest_gap_ns, kNamedWithin_s), "%s was never named", victim.name.c_str());
     }
-    const double gap_s = seconds(log_.layers.longest_gap_ns);
-    check(gap_s < kOthersPause_s, "no layers for %.2f s", gap_s);
+    const std::int64_t gap_ns = log_.layers.longest_gap_ns;
+    check(is_within(gap_ns, kOthersPause_s), "no layers for %.2f s", seconds(gap_ns));
     for (const BusLog::Lidar& other : log_.lidars) {
       if (other.name == victim.name) continue;
       check(other.fewest_maps >= kFull && other.named_missing_ns == 0,

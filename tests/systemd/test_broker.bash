@@ -5,7 +5,8 @@
 source "$(dirname "$0")/common.bash"
 
 repeat=${GVOM_FAULTS_REPEAT:-1}
-most_ms=5000
+most_ms=15000  # among other tests on a busy machine
+if [[ -n ${GVOM_FAULTS_REPEAT:-} ]]; then most_ms=5000; fi
 hang_tries=60
 old_pids=''
 
