@@ -6,6 +6,7 @@
 #include "core/window.hpp"
 #include "tests/core/compare.hpp"
 #include "tests/core/rig.hpp"
+#include "tests/core/window_map.hpp"
 
 namespace gvom::test {
 namespace {
@@ -15,14 +16,6 @@ const Points kPost{{5.25, 0.25, 1.25}};
 
 Window window(int buffer_size, double max_age_s) {
   return Window({buffer_size, max_age_s}, grid_around({}, Eigen::Vector3d::Zero()));
-}
-
-WindowMap map(int lidar, std::int64_t stamp_ns) {
-  WindowMap map;
-  map.view.grid = grid_around({}, Eigen::Vector3d::Zero());
-  map.view.stamp_ns = stamp_ns;
-  map.lidar = lidar;
-  return map;
 }
 
 std::vector<std::int64_t> stamps(const std::vector<WindowMap>& maps) {

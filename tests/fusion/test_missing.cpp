@@ -3,22 +3,16 @@
 
 #include "core/grid.hpp"
 #include "services/fusion/missing.hpp"
+#include "tests/core/window_map.hpp"
 
 using namespace gvom;
 using fusion::is_missing;
+using test::map;
 
 namespace {
 
 constexpr std::int64_t kTenth_ns = 100'000'000;
 constexpr std::int64_t kAfter_ns = 300'000'000;
-
-WindowMap map(int lidar, std::int64_t stamp_ns) {
-  WindowMap map;
-  map.view.grid = grid_around({}, Eigen::Vector3d::Zero());
-  map.view.stamp_ns = stamp_ns;
-  map.lidar = lidar;
-  return map;
-}
 
 Window window() {
   return Window({8, 2.0}, grid_around({}, Eigen::Vector3d::Zero()));
