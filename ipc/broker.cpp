@@ -10,6 +10,7 @@
 #include "iceoryx_posh/internal/roudi/roudi.hpp"
 #include "iceoryx_posh/mepoo/chunk_header.hpp"
 #include "iceoryx_posh/roudi/iceoryx_roudi_components.hpp"
+#include "ipc/doorbell.hpp"
 #include "ipc/error_guard.hpp"
 #include "ipc/system.hpp"
 
@@ -78,6 +79,9 @@ bool wait_until_it_answers() {
 struct Broker::State {
   State(const BrokerOptions& options, const std::string& group)
       : components(roudi_config(options.plan, group)), roudi(components, options.heartbeat) {}
+  ~State() { Doorbell::take_down(); }
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
 
   iox::roudi::IceOryxRouDiComponents components;
   HookedRouDi roudi;
@@ -113,6 +117,7 @@ Expected<Broker> Broker::start(BrokerOptions options) {
   if (!group) return tl::unexpected(group.error());
   if (auto is_free = check_place_is_free(); !is_free) return tl::unexpected(is_free.error());
   if (auto fits = check_space(options.plan); !fits) return tl::unexpected(fits.error());
+  if (auto bell = Doorbell::hang_up(); !bell) return tl::unexpected(bell.error());
   install_error_guard(options.log);
   Broker broker(std::make_unique<State>(options, *group));
   if (wait_until_it_answers()) return broker;

@@ -23,9 +23,8 @@ Expected<PlannerClient> PlannerClient::connect(const std::string& name, std::chr
   auto layers = LayersSubscriber::open(*runtime);
   if (!layers) return tl::unexpected(layers.error());
   auto waiter = Waiter::create(*runtime);
-  if (!waiter) return tl::unexpected(waiter.error());
-  if (auto added = waiter->add(*layers); !added) return tl::unexpected(added.error());
-  return PlannerClient(std::move(*runtime), std::move(*layers), std::move(*waiter));
+  waiter.add(*layers);
+  return PlannerClient(std::move(*runtime), std::move(*layers), std::move(waiter));
 }
 
 Expected<LayersSample> PlannerClient::newest_layers(std::chrono::milliseconds timeout) {

@@ -99,8 +99,10 @@ bool accept(InPortState& state, const void* payload) {
 
 }  // namespace
 
-OutPortState::OutPortState(const Topic& topic_)
-    : topic(topic_), publisher(service_of(topic_), publisher_options(topic_)) {}
+OutPortState::OutPortState(const Topic& topic_, std::shared_ptr<Doorbell> doorbell_)
+    : topic(topic_),
+      publisher(service_of(topic_), publisher_options(topic_)),
+      doorbell(std::move(doorbell_)) {}
 
 InPortState::InPortState(const Topic& topic_)
     : topic(topic_), subscriber(service_of(topic_), subscriber_options(topic_)) {}
@@ -137,8 +139,8 @@ Chunk::~Chunk() {
 
 OutPort::OutPort(std::shared_ptr<OutPortState> state) : state_(std::move(state)) {}
 
-Expected<OutPort> OutPort::open(Runtime&, const Topic& topic) {
-  return OutPort(std::make_shared<OutPortState>(topic));
+Expected<OutPort> OutPort::open(Runtime& runtime, const Topic& topic) {
+  return OutPort(std::make_shared<OutPortState>(topic, runtime.doorbell()));
 }
 
 Expected<Loan> OutPort::loan(std::size_t bytes) {
@@ -162,6 +164,7 @@ std::uint64_t OutPort::publish(Loan&& loan, std::size_t bytes, std::int64_t stam
             stamp_ns,
             epoch};
   state_->publisher.publish(std::exchange(loan.data_, nullptr));
+  state_->doorbell->ring(Doorbell::readers_of(state_->topic.type));
   return state_->sequence;
 }
 

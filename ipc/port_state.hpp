@@ -3,20 +3,23 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "iceoryx_posh/popo/untyped_publisher.hpp"
 #include "iceoryx_posh/popo/untyped_subscriber.hpp"
+#include "ipc/doorbell.hpp"
 #include "ipc/port.hpp"
 
 namespace gvom::ipc {
 
 struct OutPortState {
-  explicit OutPortState(const Topic& topic_);
+  OutPortState(const Topic& topic_, std::shared_ptr<Doorbell> doorbell_);
 
   Topic topic;
   iox::popo::UntypedPublisher publisher;
+  std::shared_ptr<Doorbell> doorbell;
   std::uint64_t sequence = 0;
 };
 

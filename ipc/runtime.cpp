@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "iceoryx_posh/runtime/posh_runtime.hpp"
+#include "ipc/doorbell.hpp"
 #include "ipc/error_guard.hpp"
 #include "ipc/system.hpp"
 
@@ -66,6 +67,7 @@ struct Runtime::State {
   std::string name;
   std::string segment;
   std::uint64_t broker_inode;
+  std::shared_ptr<Doorbell> doorbell;
 };
 
 Expected<void> check_runtime_name(const std::string& name) {
@@ -88,7 +90,10 @@ Expected<Runtime> Runtime::connect(const std::string& name, std::chrono::millise
   if (auto may_join = check_may_join(name, timeout); !may_join) return tl::unexpected(may_join.error());
   auto segment = segment_path();
   if (!segment) return tl::unexpected(segment.error());
-  auto state = std::make_unique<State>(State{name, std::move(*segment), management_inode()});
+  const std::uint64_t broker_inode = management_inode();  // before the bell: that is no older then
+  auto doorbell = Doorbell::open();
+  if (!doorbell) return tl::unexpected(doorbell.error());
+  auto state = std::make_unique<State>(State{name, std::move(*segment), broker_inode, std::move(*doorbell)});
   install_error_guard(std::move(log));
   iox::runtime::PoshRuntime::initRuntime(iox::RuntimeName_t(iox::cxx::TruncateToCapacity, name));
   joined = true;
@@ -105,6 +110,10 @@ Runtime::~Runtime() {
 
 const std::string& Runtime::name() const {
   return state_->name;
+}
+
+const std::shared_ptr<Doorbell>& Runtime::doorbell() const {
+  return state_->doorbell;
 }
 
 bool Runtime::broker_alive() const {

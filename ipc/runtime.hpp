@@ -34,6 +34,8 @@ struct MemoryRange {
   std::size_t bytes = 0;
 };
 
+class Doorbell;
+
 class Runtime {
  public:
   /// Joins the bus as `name`, waiting up to `timeout` for the broker. Errors: bad_name, unavailable, in_use
@@ -59,6 +61,9 @@ class Runtime {
 
   /// Maps every page of the payload segment now, so that none faults later. Returns the bytes.
   [[nodiscard]] Expected<std::size_t> prefault() const;
+
+  /// What wakes readers. Internal to ipc/.
+  [[nodiscard]] const std::shared_ptr<Doorbell>& doorbell() const;
 
  private:
   struct State;

@@ -14,13 +14,10 @@ enum class WaitResult {
   timeout,  ///< Neither.
 };
 
-/// A wait is as long as asked for by CLOCK_MONOTONIC, or up to 0.2 s longer if the wall clock is set back
-/// meanwhile: a thread of the waiter's own sees to it.
-/// Block signals in the thread that waits: more than five interruptions in one wait end the process. Take
-/// them in a sigwait thread that calls wake().
+/// Waits by CLOCK_MONOTONIC, whatever happens to the wall clock; signals do not end a wait.
 class Waiter {
  public:
-  static Expected<Waiter> create(Runtime& runtime);
+  static Waiter create(Runtime& runtime);
   Waiter(Waiter&&) noexcept;
   Waiter& operator=(Waiter&&) noexcept;
   ~Waiter();
@@ -28,15 +25,15 @@ class Waiter {
   /// Waits for `subscriber` too from now on, until that is destroyed. Takes any of the subscribers, or an
   /// InPort.
   template <typename S>
-  Expected<void> add(S& subscriber) {
-    return add(subscriber.port());
+  void add(S& subscriber) {
+    add(subscriber.port());
   }
-  Expected<void> add(InPort& port);
+  void add(InPort& port);
 
   /// Returns at once while any subscriber has unread messages: take them all before waiting again.
   WaitResult wait(std::chrono::milliseconds timeout);
 
-  /// From any thread; a call while nobody waits is kept for the next wait. Not for signal handlers.
+  /// From any thread; a call while nobody waits is kept for the next wait.
   void wake();
 
  private:

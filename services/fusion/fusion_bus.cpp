@@ -7,8 +7,7 @@ namespace gvom::fusion {
 
 ipc::Expected<Bus> Bus::open(ipc::Runtime& runtime, const services::VehicleConfig& config) {
   auto waiter = ipc::Waiter::create(runtime);
-  if (!waiter) return tl::unexpected(waiter.error());
-  auto inbox = MapInbox::open(runtime, *waiter, config);
+  auto inbox = MapInbox::open(runtime, waiter, config);
   if (!inbox) return tl::unexpected(inbox.error());
   auto layers = ipc::LayersPublisher::open(runtime);
   if (!layers) return tl::unexpected(layers.error());
@@ -18,7 +17,7 @@ ipc::Expected<Bus> Bus::open(ipc::Runtime& runtime, const services::VehicleConfi
   if (!progress) return tl::unexpected(progress.error());
   auto health = ipc::Publisher<ipc::Health>::open(runtime);
   if (!health) return tl::unexpected(health.error());
-  return Bus{std::move(*waiter), std::move(*inbox),    std::move(*layers),
+  return Bus{std::move(waiter),  std::move(*inbox),    std::move(*layers),
              std::move(*voxels), std::move(*progress), std::move(*health)};
 }
 

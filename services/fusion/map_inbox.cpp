@@ -11,7 +11,7 @@ ipc::Expected<MapInbox> MapInbox::open(ipc::Runtime& runtime, ipc::Waiter& waite
   for (const services::LidarConfig& lidar : config.lidars) {
     auto maps = ipc::BrickMapSubscriber::buffer_map(runtime, lidar.name);
     if (!maps) return tl::unexpected(maps.error());
-    if (auto added = waiter.add(*maps); !added) return tl::unexpected(added.error());
+    waiter.add(*maps);
     inbox.lidars_.push_back({lidar.name, std::move(*maps)});
   }
   return inbox;

@@ -34,11 +34,10 @@ ipc::Expected<Bus> Bus::open(ipc::Runtime& runtime, const services::VehicleConfi
   auto health = ipc::Publisher<ipc::Health>::open(runtime);
   if (!health) return tl::unexpected(health.error());
   auto waiter = ipc::Waiter::create(runtime);
-  if (!waiter) return tl::unexpected(waiter.error());
-  if (auto added = waiter->add(*odometry); !added) return tl::unexpected(added.error());
-  if (auto added = waiter->add(*progress); !added) return tl::unexpected(added.error());
+  waiter.add(*odometry);
+  waiter.add(*progress);
   return Bus{std::move(*odometry),     std::move(*progress), std::move(*maps),
-             std::move(*own_progress), std::move(*health),   std::move(*waiter)};
+             std::move(*own_progress), std::move(*health),   std::move(waiter)};
 }
 
 IngestNode::IngestNode(const services::VehicleConfig& config, const services::LidarConfig& lidar,

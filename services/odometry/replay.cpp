@@ -47,9 +47,8 @@ ipc::Expected<Bus> Bus::open(ipc::Runtime& runtime) {
   auto progress = ipc::Subscriber<ipc::Progress>::open(runtime);
   if (!progress) return tl::make_unexpected(progress.error());
   auto waiter = ipc::Waiter::create(runtime);
-  if (!waiter) return tl::make_unexpected(waiter.error());
-  if (const auto added = waiter->add(*progress); !added) return tl::make_unexpected(added.error());
-  return Bus{std::move(*odometry), std::move(*health), std::move(*progress), std::move(*waiter)};
+  waiter.add(*progress);
+  return Bus{std::move(*odometry), std::move(*health), std::move(*progress), std::move(waiter)};
 }
 
 Replay::Replay(const std::vector<StampedPose>& poses, const std::vector<std::string>& lidars,

@@ -217,8 +217,8 @@ void live_as_odometry(const Board& board) {
 void live_as_judge(Board& board) {
   auto runtime = ipc::Runtime::connect("lab-judge", 5s).value();
   auto voxels = ipc::BrickMapSubscriber::voxel_map(runtime).value();
-  auto waiter = ipc::Waiter::create(runtime).value();
-  EXPECT(waiter.add(voxels));
+  auto waiter = ipc::Waiter::create(runtime);
+  waiter.add(voxels);
   while (true) {
     waiter.wait(100ms);
     while (const auto map = voxels.take()) {

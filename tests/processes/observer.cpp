@@ -94,8 +94,10 @@ void Observer::watch() {
   auto voxels = ipc::BrickMapSubscriber::voxel_map(runtime).value();
   auto health = ipc::Subscriber<ipc::Health>::open(runtime).value();
   auto pool_reports = ipc::PoolReports::open(runtime).value();
-  auto waiter = ipc::Waiter::create(runtime).value();
-  EXPECT(waiter.add(layers) && waiter.add(voxels) && waiter.add(health));
+  auto waiter = ipc::Waiter::create(runtime);
+  waiter.add(layers);
+  waiter.add(voxels);
+  waiter.add(health);
   up_step_.reach(1);
   while (true) {
     waiter.wait(100ms);

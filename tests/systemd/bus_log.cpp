@@ -31,14 +31,12 @@ ipc::Expected<BusLog> BusLog::open(ipc::Runtime& runtime, const std::vector<std:
   if (!health) return tl::unexpected(health.error());
   auto pools = ipc::PoolReports::open(runtime);
   if (!pools) return tl::unexpected(pools.error());
-  auto waiter = ipc::Waiter::create(runtime);
-  if (!waiter) return tl::unexpected(waiter.error());
-  BusLog log(std::move(*layers), std::move(*health), std::move(*pools), std::move(*waiter));
-  if (const auto added = log.waiter_.add(log.layers_in_.port()); !added) return tl::unexpected(added.error());
+  BusLog log(std::move(*layers), std::move(*health), std::move(*pools), ipc::Waiter::create(runtime));
+  log.waiter_.add(log.layers_in_);
   for (const std::string& name : lidars) {
     auto maps = ipc::BrickMapSubscriber::buffer_map(runtime, name);
     if (!maps) return tl::unexpected(maps.error());
-    if (const auto added = log.waiter_.add(*maps); !added) return tl::unexpected(added.error());
+    log.waiter_.add(*maps);
     log.lidars.push_back({name, std::move(*maps), {}});
   }
   return log;

@@ -53,15 +53,10 @@ class Listener {
     auto pools = ipc::PoolReports::open(runtime);
     if (!pools) return tl::unexpected(pools.error());
     auto waiter = ipc::Waiter::create(runtime);
-    if (!waiter) return tl::unexpected(waiter.error());
-    Listener listener{socket,
-                      std::move(*health),
-                      std::move(*layers),
-                      std::move(*odometry),
-                      std::move(*pools),
-                      std::move(*waiter)};
-    if (auto added = listener.waiter_.add(listener.layers_); !added) return tl::unexpected(added.error());
-    return listener;
+    waiter.add(*layers);
+    return Listener{
+        socket,           std::move(*health), std::move(*layers), std::move(*odometry), std::move(*pools),
+        std::move(waiter)};
   }
 
   /// False if nobody reads any more.

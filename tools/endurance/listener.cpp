@@ -92,9 +92,8 @@ class Listener {
     auto pools = ipc::PoolReports::open(runtime);
     if (!pools) return tl::unexpected(pools.error());
     auto waiter = ipc::Waiter::create(runtime);
-    if (!waiter) return tl::unexpected(waiter.error());
-    if (auto added = waiter->add(*layers); !added) return tl::unexpected(added.error());
-    if (auto added = waiter->add(*odometry); !added) return tl::unexpected(added.error());
+    waiter.add(*layers);
+    waiter.add(*odometry);
     return Listener{board,
                     socket,
                     std::move(*health),
@@ -102,7 +101,7 @@ class Listener {
                     std::move(*odometry),
                     std::move(*voxels),
                     std::move(*pools),
-                    std::move(*waiter)};
+                    std::move(waiter)};
   }
 
   /// False if nobody reads any more.

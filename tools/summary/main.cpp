@@ -71,9 +71,9 @@ class Listener {
   Listener(ipc::Subscriber<ipc::Health> health, ipc::LayersSubscriber layers, std::vector<Silent> silent)
       : health_(std::move(health)), layers_(std::move(layers)), silent_(std::move(silent)) {}
 
-  ipc::Expected<void> add_to(ipc::Waiter& waiter) {
-    if (auto added = waiter.add(health_); !added) return added;
-    return waiter.add(layers_);
+  void add_to(ipc::Waiter& waiter) {
+    waiter.add(health_);
+    waiter.add(layers_);
   }
 
   void take(std::int64_t now_ns) {
@@ -120,8 +120,7 @@ ExitCode listen(ipc::Runtime& runtime, const Options& options, services::Lifecyc
   auto health = ipc::Subscriber<ipc::Health>::open(runtime);
   auto layers = ipc::LayersSubscriber::open(runtime);
   auto waiter = ipc::Waiter::create(runtime);
-  for (const ipc::Error* error : {health ? nullptr : &health.error(), layers ? nullptr : &layers.error(),
-                                  waiter ? nullptr : &waiter.error()}) {
+  for (const ipc::Error* error : {health ? nullptr : &health.error(), layers ? nullptr : &layers.error()}) {
     if (error == nullptr) continue;
     spdlog::error("{}", error->message);
     return services::exit_code_of(*error);
@@ -129,14 +128,11 @@ ExitCode listen(ipc::Runtime& runtime, const Options& options, services::Lifecyc
   std::vector<Silent> silent;
   for (const std::string& text : options.also) silent.push_back(parse_also(text).value());  // checked by CLI
   Listener listener(std::move(*health), std::move(*layers), std::move(silent));
-  if (const auto added = listener.add_to(*waiter); !added) {
-    spdlog::error("{}", added.error().message);
-    return services::exit_code_of(added.error());
-  }
-  lifecycle.on_stop([&waiter] { waiter->wake(); });
+  listener.add_to(waiter);
+  lifecycle.on_stop([&waiter] { waiter.wake(); });
   Progress progress(options.progress);
   while (!lifecycle.stopping() && runtime.broker_alive()) {
-    waiter->wait(kLongestWait);
+    waiter.wait(kLongestWait);
     const std::int64_t now_ns = ipc::monotonic_ns();
     listener.take(now_ns);
     progress.show(listener.record(), now_ns);

@@ -1,16 +1,15 @@
 // gvom-test-hang TRIES: makes the broker hang, as it does when a process is killed in the middle of a
-// publish: one that does nothing else, on a topic of its own, is killed and started again under its name
-// until the broker no longer works off its messages. Runs as the broker's user. Prints the Unix time (ms) of
-// the last kill. Exit codes: 0 the broker hangs, 75 it did not in so many tries.
+// publish: one that does nothing else, past our own ports, is killed and started again under its name until
+// the broker no longer works off its messages. Runs as the broker's user. Prints the Unix time (ms) of the
+// last kill. Exit codes: 0 the broker hangs, 75 it did not in so many tries.
 #include <unistd.h>
 
 #include <cstdio>
 #include <cstdlib>
 #include <random>
-#include <utility>
 
+#include "iceoryx_posh/popo/untyped_publisher.hpp"
 #include "ipc/broker_probe.hpp"
-#include "ipc/port.hpp"
 #include "tests/ipc/processes.hpp"
 
 namespace {
@@ -18,14 +17,12 @@ namespace {
 using namespace gvom;
 using namespace std::chrono_literals;
 
-constexpr std::size_t kBytes = sizeof(ipc::MessageHeader);
-
 void publish_for_ever() {
   auto runtime = ipc::Runtime::connect("gvom-test-hang", 5s);
   if (!runtime) return;
-  auto port = ipc::OutPort::open(*runtime, {"hang", "all", ipc::MessageType::progress, 1, nullptr, 1});
-  while (port) {
-    if (auto loan = port->loan(kBytes)) port->publish(std::move(*loan), kBytes, 0, 0);
+  iox::popo::UntypedPublisher publisher({"gvom", "hang", "all"});
+  while (true) {
+    if (auto chunk = publisher.loan(8)) publisher.publish(*chunk);
   }
 }
 

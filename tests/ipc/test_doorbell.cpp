@@ -1,0 +1,130 @@
+// How readers are woken: by a bell that is rung after a publish, so that nobody who dies can keep it.
+#include <catch2/catch.hpp>
+
+#include "iceoryx_posh/popo/untyped_publisher.hpp"
+#include "ipc/doorbell.hpp"
+#include "ipc/fixed.hpp"
+#include "ipc/waiter.hpp"
+#include "tests/ipc/processes.hpp"
+
+using namespace gvom::ipc;
+using namespace gvom::ipc::test;
+
+namespace {
+
+constexpr auto kForLayers = Doorbell::readers_of(MessageType::layers);
+constexpr auto kForHealth = Doorbell::readers_of(MessageType::health);
+
+auto in(std::chrono::milliseconds time) {
+  return std::chrono::steady_clock::now() + time;
+}
+
+/// Takes the bell down again when it goes.
+struct Hung {
+  Hung() { REQUIRE(Doorbell::hang_up()); }
+  ~Hung() { Doorbell::take_down(); }
+};
+
+}  // namespace
+
+TEST_CASE("without a bell there is none to open, and a broker takes its own down") {
+  CHECK(Doorbell::open().error().kind == ErrorKind::unavailable);
+  {
+    BrokerProcess broker;
+    REQUIRE(broker.is_up());
+    CHECK(Doorbell::open());
+    CHECK(broker.stop() == 0);
+  }
+  CHECK(!Doorbell::open());
+}
+
+TEST_CASE("a bell of a dead broker is not the next one's") {
+  const Hung hung;
+  const auto old = Doorbell::open().value();
+  REQUIRE(Doorbell::hang_up());
+  const auto fresh = Doorbell::open().value();
+  old->ring(kForLayers);
+  CHECK(old->rings() == 1);
+  CHECK(fresh->rings() == 0);
+}
+
+TEST_CASE("each type of message has readers of its own, and no process is in their sets") {
+  std::uint32_t types = 0;
+  for (const auto type : {MessageType::odometry, MessageType::buffer_map, MessageType::layers,
+                          MessageType::voxel_map, MessageType::health, MessageType::progress}) {
+    CHECK((types & Doorbell::readers_of(type)) == 0);
+    types |= Doorbell::readers_of(type);
+  }
+  for (pid_t pid = 1; pid < 100; ++pid) {
+    CHECK((types & Doorbell::process(pid)) == 0);
+    CHECK(Doorbell::process(pid) != 0);
+  }
+}
+
+TEST_CASE("a wait ends with the ring, at its end, or at once if it rang since one looked") {
+  const Hung hung;
+  const auto bell = Doorbell::open().value();
+  const auto known = bell->rings();
+  CHECK_FALSE(bell->wait(known, kForLayers, in(20ms)));
+  CHECK_FALSE(bell->wait(known, kForLayers, in(-20ms)));
+  bell->ring(kForHealth);  // for others, but between a look and a wait nothing may be missed
+  CHECK(bell->wait(known, kForLayers, in(kPatience)));
+  std::thread ringer([&] {
+    std::this_thread::sleep_for(50ms);
+    bell->ring(kForLayers | kForHealth);
+  });
+  CHECK(bell->wait(bell->rings(), kForLayers, in(kPatience)));
+  ringer.join();
+}
+
+TEST_CASE("a ring wakes who listens in any process, and leaves others asleep") {
+  const Hung hung;
+  Step layers_reader, health_reader;
+  const auto listen = [](std::uint32_t set, Step& step) {
+    const auto bell = Doorbell::open().value();
+    const auto known = bell->rings();
+    step.reach(1);
+    EXPECT(bell->wait(known, set, in(kPatience)));
+    step.reach(2);
+  };
+  Child layers([&] { listen(kForLayers, layers_reader); });
+  Child health([&] { listen(kForHealth, health_reader); });
+  REQUIRE(layers_reader.wait_for(1));
+  REQUIRE(health_reader.wait_for(1));
+  std::this_thread::sleep_for(200ms);  // both sleep
+  const auto bell = Doorbell::open().value();
+  bell->ring(kForLayers);
+  CHECK(layers_reader.wait_for(2));
+  std::this_thread::sleep_for(100ms);
+  CHECK_FALSE(health_reader.reached(2));
+  bell->ring(kForHealth);
+  CHECK(health_reader.wait_for(2));
+}
+
+TEST_CASE(
+    "the bus itself wakes nobody within a publish: who is not rung for finds the message after the wait") {
+  BrokerProcess broker;
+  REQUIRE(broker.is_up());
+  Step step;
+  Child reader([&] {
+    auto runtime = Runtime::connect("reader", kPatience).value();
+    auto odometry = Subscriber<Odometry>::open(runtime).value();
+    auto waiter = Waiter::create(runtime);
+    waiter.add(odometry);
+    step.reach(1);
+    const auto begin = std::chrono::steady_clock::now();
+    EXPECT(waiter.wait(1s) == WaitResult::data);
+    EXPECT(std::chrono::steady_clock::now() - begin >= 1s);
+    step.reach(2);
+  });
+  Child sender([&] {
+    const auto runtime = Runtime::connect("sender", kPatience);
+    iox::popo::UntypedPublisher publisher({"gvom", "odometry", "all"});
+    EXPECT(step.wait_for(1));
+    EXPECT(eventually([&] { return publisher.hasSubscribers(); }));
+    publisher.publish(publisher.loan(sizeof(Odometry)).value());  // and dies before it rings
+    EXPECT(step.wait_for(2));
+  });
+  CHECK(reader.wait() == 0);
+  CHECK(sender.wait() == 0);
+}
