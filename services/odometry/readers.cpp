@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <string_view>
+#include <utility>
 
 namespace gvom::odometry {
 
@@ -40,10 +41,11 @@ const Reader* Readers::take(const ipc::Progress& progress, std::uint64_t publish
     ++reader.restarts;
     reader.acknowledged = published;
     if (&reader == &fusion_)
-      for (Reader& lidar : ingests_) lidar.missed_maps = lidar.latest.maps_published;
+      for (Reader& lidar : ingests_) lidar.will_tell_missed = true;
     else
       reader.missed_maps = 0;
   }
+  if (std::exchange(reader.will_tell_missed, false)) reader.missed_maps = progress.maps_published;
   if (progress.header.epoch >= first_epoch_) {
     reader.acknowledged = std::max(reader.acknowledged, std::min(progress.odometry_sequence, published));
   }
@@ -89,8 +91,11 @@ std::vector<std::string> Readers::outstanding(std::uint64_t sequence, std::int64
       lines.push_back("'" + reader.name + "' is at odometry " + std::to_string(reader.acknowledged) + " of " +
                       std::to_string(sequence));
     }
+    if (!fusion_.announced || fusion_.heard_ns < heard_since_ns) continue;
     const std::uint64_t taken = std::max(taken_by_fusion(reader.name), reader.missed_maps);
-    if (fusion_.announced && fusion_.heard_ns >= heard_since_ns && taken < reader.latest.maps_published) {
+    if (reader.will_tell_missed) {
+      lines.push_back("'" + reader.name + "' has yet to say which maps it made before fusion began anew");
+    } else if (taken < reader.latest.maps_published) {
       lines.push_back("fusion took " + std::to_string(taken) + " of " +
                       std::to_string(reader.latest.maps_published) + " maps of '" + reader.name + "'");
     }

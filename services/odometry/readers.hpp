@@ -19,6 +19,7 @@ struct Reader {
   std::int64_t advanced_ns = 0;   ///< CLOCK_MONOTONIC when it last came further.
   std::int64_t heard_ns = 0;      ///< ... when it last said anything.
   std::uint64_t missed_maps = 0;  ///< An ingest's, from before fusion began anew: it never gets them.
+  bool will_tell_missed = false;  ///< With its next message; it need not have told of each map at once.
   ipc::Progress latest{};
 };
 

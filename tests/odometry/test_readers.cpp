@@ -102,10 +102,13 @@ TEST_CASE("a fusion that began anew is not waited for with the maps that it can 
   readers.take(taken_by_fusion(7, "top", 8), 5, 1);
   CHECK(readers.outstanding(5) == Names{"fusion took 8 of 10 maps of 'top'"});
   readers.take(progress_of("fusion", 1), 5, 2);
+  // The ingest made maps that it has not told of: only its next word says which of them fusion can not get.
+  CHECK(readers.outstanding(5) == Names{"'top' has yet to say which maps it made before fusion began anew"});
+  readers.take(progress_of("top", 2, 5, 12), 5, 3);
   CHECK(readers.outstanding(5).empty());
-  readers.take(progress_of("top", 2, 5, 11), 5, 3);
-  CHECK(readers.outstanding(5) == Names{"fusion took 10 of 11 maps of 'top'"});
-  readers.take(taken_by_fusion(2, "top", 11), 5, 4);
+  readers.take(progress_of("top", 3, 5, 13), 5, 4);
+  CHECK(readers.outstanding(5) == Names{"fusion took 12 of 13 maps of 'top'"});
+  readers.take(taken_by_fusion(2, "top", 13), 5, 5);
   CHECK(readers.outstanding(5).empty());
 }
 
