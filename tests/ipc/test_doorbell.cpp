@@ -48,6 +48,22 @@ TEST_CASE("a bell of a dead broker is not the next one's") {
   CHECK(fresh->rings() == 0);
 }
 
+TEST_CASE("another user's bell is named, and not rung") {
+  const Hung hung;
+  if (::geteuid() != 0) {
+    WARN("SKIPPED: this user cannot become another one");
+    return;
+  }
+  Child stranger([] {
+    EXPECT(::setgid(65534) == 0 && ::setuid(65534) == 0);
+    for (const Error& error : {Doorbell::hang_up().error(), Doorbell::open().error()}) {
+      EXPECT(error.kind == ErrorKind::denied);
+      EXPECT(error.message.find("/dev/shm/gvom_doorbell") != std::string::npos);
+    }
+  });
+  CHECK(stranger.wait() == 0);
+}
+
 TEST_CASE("each type of message has readers of its own, and no process is in their sets") {
   std::uint32_t types = 0;
   for (const auto type : {MessageType::odometry, MessageType::buffer_map, MessageType::layers,

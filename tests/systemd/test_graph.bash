@@ -80,7 +80,7 @@ check_stop() {
   if journalctl --since "$started" --unit 'gvom*' --output cat | grep -iE 'abort|cannot go on|SIGKILL|timed out|core'; then
     fail "the stop was not clean"
   fi
-  [[ ! -e /dev/shm/gvom && ! -e /dev/shm/iceoryx_mgmt ]] || fail "shared memory is left"
+  [[ ! -e /dev/shm/gvom && ! -e /dev/shm/iceoryx_mgmt && ! -e /dev/shm/gvom_doorbell ]] || fail "shared memory is left"
   # The broker last.
   journalctl --since "$started" --output cat | grep -E '^Stopped gvom' | tail -n 1 | grep --quiet gvom-roudi || fail "the broker was not the last to stop"
 }
