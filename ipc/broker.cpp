@@ -79,7 +79,7 @@ bool wait_until_it_answers() {
 struct Broker::State {
   State(const BrokerOptions& options, const std::string& group)
       : components(roudi_config(options.plan, group)), roudi(components, options.heartbeat) {}
-  ~State() { Doorbell::take_down(); }
+  ~State() { Doorbell::remove(); }
   State(const State&) = delete;
   State& operator=(const State&) = delete;
 
@@ -117,7 +117,7 @@ Expected<Broker> Broker::start(BrokerOptions options) {
   if (!group) return tl::unexpected(group.error());
   if (auto is_free = check_place_is_free(); !is_free) return tl::unexpected(is_free.error());
   if (auto fits = check_space(options.plan); !fits) return tl::unexpected(fits.error());
-  if (auto bell = Doorbell::hang_up(); !bell) return tl::unexpected(bell.error());
+  if (auto bell = Doorbell::install(); !bell) return tl::unexpected(bell.error());
   install_error_guard(options.log);
   Broker broker(std::make_unique<State>(options, *group));
   if (wait_until_it_answers()) return broker;

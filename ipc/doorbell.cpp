@@ -36,7 +36,7 @@ timespec to_timespec(std::chrono::steady_clock::time_point time) {
 
 }  // namespace
 
-Expected<void> Doorbell::hang_up() {
+Expected<void> Doorbell::install() {
   if (::unlink(kFile) != 0 && errno != ENOENT) {
     return failed(ErrorKind::denied, "left by another user and cannot be removed");
   }
@@ -51,7 +51,7 @@ Expected<void> Doorbell::hang_up() {
   return failed(ErrorKind::no_space, "cannot reserve a page");
 }
 
-void Doorbell::take_down() {
+void Doorbell::remove() {
   ::unlink(kFile);
 }
 

@@ -27,10 +27,10 @@ class Doorbell {
   }
   static constexpr std::uint32_t process(pid_t pid) { return 1u << (8 + static_cast<unsigned>(pid) % 24); }
 
-  /// For the broker: makes a new bell in the place of any that a dead broker left, and removes it. Errors:
-  /// no_space, denied (another user's is in the way).
-  static Expected<void> hang_up();
-  static void take_down();
+  /// For the broker: makes a new bell in the place of any that a dead broker left, and takes it away again.
+  /// Errors: no_space, denied (another user's is in the way).
+  static Expected<void> install();
+  static void remove();
 
   /// For everybody else: the bell of the broker that is there. Errors: unavailable, denied.
   static Expected<std::shared_ptr<Doorbell>> open();

@@ -20,9 +20,9 @@ auto in(std::chrono::milliseconds time) {
 }
 
 /// Takes the bell down again when it goes.
-struct Hung {
-  Hung() { REQUIRE(Doorbell::hang_up()); }
-  ~Hung() { Doorbell::take_down(); }
+struct Installed {
+  Installed() { REQUIRE(Doorbell::install()); }
+  ~Installed() { Doorbell::remove(); }
 };
 
 }  // namespace
@@ -39,9 +39,9 @@ TEST_CASE("without a bell there is none to open, and a broker takes its own down
 }
 
 TEST_CASE("a bell of a dead broker is not the next one's") {
-  const Hung hung;
+  const Installed installed;
   const auto old = Doorbell::open().value();
-  REQUIRE(Doorbell::hang_up());
+  REQUIRE(Doorbell::install());
   const auto fresh = Doorbell::open().value();
   old->ring(kForLayers);
   CHECK(old->rings() == 1);
@@ -49,14 +49,14 @@ TEST_CASE("a bell of a dead broker is not the next one's") {
 }
 
 TEST_CASE("another user's bell is named, and not rung") {
-  const Hung hung;
+  const Installed installed;
   if (::geteuid() != 0) {
     WARN("SKIPPED: this user cannot become another one");
     return;
   }
   Child stranger([] {
     EXPECT(::setgid(65534) == 0 && ::setuid(65534) == 0);
-    for (const Error& error : {Doorbell::hang_up().error(), Doorbell::open().error()}) {
+    for (const Error& error : {Doorbell::install().error(), Doorbell::open().error()}) {
       EXPECT(error.kind == ErrorKind::denied);
       EXPECT(error.message.find("/dev/shm/gvom_doorbell") != std::string::npos);
     }
@@ -78,7 +78,7 @@ TEST_CASE("each type of message has readers of its own, and no process is in the
 }
 
 TEST_CASE("a wait ends with the ring, at its end, or at once if it rang since one looked") {
-  const Hung hung;
+  const Installed installed;
   const auto bell = Doorbell::open().value();
   const auto known = bell->rings();
   CHECK_FALSE(bell->wait(known, kForLayers, in(20ms)));
@@ -94,7 +94,7 @@ TEST_CASE("a wait ends with the ring, at its end, or at once if it rang since on
 }
 
 TEST_CASE("a ring wakes who listens in any process, and leaves others asleep") {
-  const Hung hung;
+  const Installed installed;
   Step layers_reader, health_reader;
   const auto listen = [](std::uint32_t set, Step& step) {
     const auto bell = Doorbell::open().value();

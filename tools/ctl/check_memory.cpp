@@ -42,7 +42,7 @@ Finding check_folder(const std::string& folder) {
 /// The files that the bus's processes make, by name.
 std::vector<std::string> bus_files(const services::VehicleConfig& config) {
   std::vector<std::string> files = {"/tmp/roudi", "/tmp/roudi.lock", "/tmp/iox-unique-roudi.lock",
-                                    "/dev/shm/iceoryx_mgmt"};
+                                    "/dev/shm/iceoryx_mgmt", "/dev/shm/gvom_doorbell"};
   for (const std::string& process : expected_of(config).processes) {
     files.push_back("/tmp/" + process);
     files.push_back("/tmp/" + process + ".lock");
