@@ -39,6 +39,13 @@ class HookedRouDi : private Hook, public iox::roudi::RouDi {
   }
 };
 
+struct DoorbellOwner {
+  DoorbellOwner() = default;
+  ~DoorbellOwner() { Doorbell::remove(); }
+  DoorbellOwner(const DoorbellOwner&) = delete;
+  DoorbellOwner& operator=(const DoorbellOwner&) = delete;
+};
+
 iox::RouDiConfig_t roudi_config(const PoolPlan& plan, const std::string& group) {
   iox::mepoo::MePooConfig pools;
   for (const Pool& pool : plan.pools) pools.addMemPool({pool.chunk_bytes, pool.chunks});
@@ -79,11 +86,8 @@ bool wait_until_it_answers() {
 struct Broker::State {
   State(const BrokerOptions& options, const std::string& group)
       : components(roudi_config(options.plan, group)), roudi(components, options.heartbeat) {}
-  ~State() { Doorbell::remove(); }
-  State(const State&) = delete;
-  State& operator=(const State&) = delete;
-
   iox::roudi::IceOryxRouDiComponents components;
+  DoorbellOwner doorbell;  // goes after the broker's socket: whoever may still join finds it
   HookedRouDi roudi;
 };
 

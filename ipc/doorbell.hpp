@@ -2,8 +2,8 @@
 //
 // iceoryx wakes readers from within a publish, while it holds a lock that the broker needs. On a busy machine
 // a woken reader takes the processor from the publisher, and if that is killed then, the lock stays locked
-// for ever: one kill in about 35 did so. Rung after the publish, the bell is nobody's to hold, so a kill at
-// any moment costs a wake-up at most, and readers look at their queues at the end of each wait as well.
+// for ever: one kill in about 35 did so. Rung after the publish, the bell is nobody's to hold: a kill before
+// it rings costs a wake-up, and readers look at their queues at the end of each wait as well.
 #pragma once
 
 #include <sys/types.h>
@@ -32,7 +32,7 @@ class Doorbell {
   static Expected<void> install();
   static void remove();
 
-  /// For everybody else: the bell of the broker that is there. Errors: unavailable, denied.
+  /// For everybody else: the bell of the broker that is there. Errors: unavailable, denied (another group).
   static Expected<std::shared_ptr<Doorbell>> open();
   ~Doorbell();
   Doorbell(const Doorbell&) = delete;

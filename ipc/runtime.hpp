@@ -62,12 +62,12 @@ class Runtime {
   /// Maps every page of the payload segment now, so that none faults later. Returns the bytes.
   [[nodiscard]] Expected<std::size_t> prefault() const;
 
-  /// What wakes readers. Internal to ipc/.
-  [[nodiscard]] const std::shared_ptr<Doorbell>& doorbell() const;
-
  private:
+  friend class OutPort;
+  friend class Waiter;
   struct State;
   explicit Runtime(std::unique_ptr<State> state);
+  [[nodiscard]] const std::shared_ptr<Doorbell>& doorbell() const;
   std::unique_ptr<State> state_;
 };
 

@@ -11,6 +11,11 @@
 #include "ipc/port_state.hpp"
 
 namespace gvom::ipc {
+namespace {
+
+constexpr std::chrono::hours kLongestWait{24};
+
+}  // namespace
 
 struct Waiter::State {
   explicit State(std::shared_ptr<Doorbell> bell_) : bell(std::move(bell_)) {}
@@ -44,7 +49,9 @@ void Waiter::add(InPort& port) {
 }
 
 WaitResult Waiter::wait(std::chrono::milliseconds timeout) {
-  const auto deadline = std::chrono::steady_clock::now() + std::max(timeout, std::chrono::milliseconds(0));
+  const auto deadline =
+      std::chrono::steady_clock::now() +
+      std::clamp<std::chrono::milliseconds>(timeout, std::chrono::milliseconds(0), kLongestWait);
   for (bool in_time = true;;) {
     const std::uint32_t rings = state_->bell->rings();
     if (state_->called.exchange(false)) return WaitResult::woken;

@@ -30,7 +30,8 @@ class Waiter {
   }
   void add(InPort& port);
 
-  /// Returns at once while any subscriber has unread messages: take them all before waiting again.
+  /// Returns at once while any subscriber has unread messages: take them all before waiting again. A day at
+  /// most.
   WaitResult wait(std::chrono::milliseconds timeout);
 
   /// From any thread; a call while nobody waits is kept for the next wait.

@@ -13,9 +13,9 @@
 namespace gvom::services {
 
 /// Takes SIGINT and SIGTERM in a thread of its own; no other thread is ever interrupted (more than five
-/// EINTRs in a wait are fatal to iceoryx). Make one first thing in main, before anything starts a thread,
-/// so that every thread inherits the blocked signals. A second signal ends the process at once (128 +
-/// signal).
+/// times in one of iceoryx's own waits is fatal to it). Make one first thing in main, before anything starts
+/// a thread, so that every thread inherits the blocked signals. A second signal ends the process at once (128
+/// + signal).
 class Lifecycle {
  public:
   Lifecycle();

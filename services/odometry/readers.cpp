@@ -21,6 +21,12 @@ bool same_progress(const ipc::Progress& a, const ipc::Progress& b) {
          std::equal(std::begin(a.taken), std::end(a.taken), std::begin(b.taken), same_taken);
 }
 
+/// A new ingest's maps all come to the fusion that is there.
+void forget_maps(Reader& ingest) {
+  ingest.missed_maps = 0;
+  ingest.will_tell_missed = false;
+}
+
 }  // namespace
 
 Readers::Readers(const std::vector<std::string>& lidars, std::uint64_t first_epoch)
@@ -41,9 +47,9 @@ const Reader* Readers::take(const ipc::Progress& progress, std::uint64_t publish
     ++reader.restarts;
     reader.acknowledged = published;
     if (&reader == &fusion_)
-      for (Reader& lidar : ingests_) lidar.will_tell_missed = true;
+      for (Reader& lidar : ingests_) lidar.will_tell_missed = lidar.announced;
     else
-      reader.missed_maps = 0;
+      forget_maps(reader);
   }
   if (std::exchange(reader.will_tell_missed, false)) reader.missed_maps = progress.maps_published;
   if (progress.header.epoch >= first_epoch_) {
@@ -92,8 +98,9 @@ std::vector<std::string> Readers::outstanding(std::uint64_t sequence, std::int64
                       std::to_string(sequence));
     }
     if (!fusion_.announced || fusion_.heard_ns < heard_since_ns) continue;
-    const std::uint64_t taken = std::max(taken_by_fusion(reader.name), reader.missed_maps);
-    if (reader.will_tell_missed) {
+    const std::uint64_t taken_now = taken_by_fusion(reader.name);  // in their order: 0 if it began anew
+    const std::uint64_t taken = taken_now > 0 ? taken_now : reader.missed_maps;
+    if (taken_now == 0 && reader.will_tell_missed) {
       lines.push_back("'" + reader.name + "' has yet to say which maps it made before fusion began anew");
     } else if (taken < reader.latest.maps_published) {
       lines.push_back("fusion took " + std::to_string(taken) + " of " +

@@ -16,10 +16,11 @@ struct Reader {
   bool announced = false;
   std::uint64_t acknowledged = 0;  ///< Every odometry up to this sequence is used or will never be.
   std::uint64_t restarts = 0;
-  std::int64_t advanced_ns = 0;   ///< CLOCK_MONOTONIC when it last came further.
-  std::int64_t heard_ns = 0;      ///< ... when it last said anything.
-  std::uint64_t missed_maps = 0;  ///< An ingest's, from before fusion began anew: it never gets them.
-  bool will_tell_missed = false;  ///< With its next message; it need not have told of each map at once.
+  std::int64_t advanced_ns = 0;  ///< CLOCK_MONOTONIC when it last came further.
+  std::int64_t heard_ns = 0;     ///< ... when it last said anything.
+  /// An ingest's, that it had made when it first spoke after fusion began anew: that may never get them.
+  std::uint64_t missed_maps = 0;
+  bool will_tell_missed = false;  ///< With its next message: it need not have told of each map at once.
   ipc::Progress latest{};
 };
 

@@ -11,6 +11,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdio>
+#include <fstream>
 #include <functional>
 #include <new>
 #include <string>
@@ -74,6 +75,14 @@ class Step {
   std::atomic<int>* step_;
 };
 
+/// Whether a process (its first thread) sleeps, as one does that waits for something.
+inline bool is_asleep(pid_t pid) {
+  std::string stat;
+  std::getline(std::ifstream("/proc/" + std::to_string(pid) + "/stat"), stat);
+  const auto name_end = stat.rfind(')');
+  return name_end != std::string::npos && stat.compare(name_end, 3, ") S") == 0;
+}
+
 class Child {
  public:
   explicit Child(const std::function<void()>& life) : pid_(::fork()) {
@@ -98,6 +107,9 @@ class Child {
     return wait();
   }
   void send(int signal) { ::kill(pid_, signal); }
+  [[nodiscard]] bool sleeps() const {
+    return eventually([this] { return is_asleep(pid_); });
+  }
 
  private:
   pid_t pid_;

@@ -1,4 +1,7 @@
 // How readers are woken: by a bell that is rung after a publish, so that nobody who dies can keep it.
+#include <grp.h>
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
 
 #include "iceoryx_posh/popo/untyped_publisher.hpp"
@@ -49,19 +52,22 @@ TEST_CASE("a bell of a dead broker is not the next one's") {
 }
 
 TEST_CASE("another user's bell is named, and not rung") {
+  constexpr int kMayNot = 77;
   const Installed installed;
-  if (::geteuid() != 0) {
-    WARN("SKIPPED: this user cannot become another one");
-    return;
-  }
   Child stranger([] {
-    EXPECT(::setgid(65534) == 0 && ::setuid(65534) == 0);
-    for (const Error& error : {Doorbell::install().error(), Doorbell::open().error()}) {
+    const gid_t group = 65534;
+    if (::setgroups(1, &group) != 0 || ::setgid(group) != 0 || ::setuid(65534) != 0) ::_exit(kMayNot);
+    const auto none = Doorbell::install();
+    const auto bell = Doorbell::open();
+    EXPECT(!none && !bell);
+    for (const Error& error : {none.error(), bell.error()}) {
       EXPECT(error.kind == ErrorKind::denied);
       EXPECT(error.message.find("/dev/shm/gvom_doorbell") != std::string::npos);
     }
   });
-  CHECK(stranger.wait() == 0);
+  const int code = stranger.wait();
+  if (code == kMayNot) WARN("SKIPPED: this user cannot become another one");
+  CHECK((code == 0 || code == kMayNot));
 }
 
 TEST_CASE("each type of message has readers of its own, and no process is in their sets") {
@@ -107,7 +113,8 @@ TEST_CASE("a ring wakes who listens in any process, and leaves others asleep") {
   Child health([&] { listen(kForHealth, health_reader); });
   REQUIRE(layers_reader.wait_for(1));
   REQUIRE(health_reader.wait_for(1));
-  std::this_thread::sleep_for(200ms);  // both sleep
+  REQUIRE(layers.sleeps());
+  REQUIRE(health.sleeps());
   const auto bell = Doorbell::open().value();
   bell->ring(kForLayers);
   CHECK(layers_reader.wait_for(2));
@@ -127,8 +134,8 @@ TEST_CASE(
     auto odometry = Subscriber<Odometry>::open(runtime).value();
     auto waiter = Waiter::create(runtime);
     waiter.add(odometry);
-    step.reach(1);
     const auto begin = std::chrono::steady_clock::now();
+    step.reach(1);
     EXPECT(waiter.wait(1s) == WaitResult::data);
     EXPECT(std::chrono::steady_clock::now() - begin >= 1s);
     step.reach(2);
@@ -138,6 +145,7 @@ TEST_CASE(
     iox::popo::UntypedPublisher publisher({"gvom", "odometry", "all"});
     EXPECT(step.wait_for(1));
     EXPECT(eventually([&] { return publisher.hasSubscribers(); }));
+    EXPECT(reader.sleeps());
     publisher.publish(publisher.loan(sizeof(Odometry)).value());  // and dies before it rings
     EXPECT(step.wait_for(2));
   });

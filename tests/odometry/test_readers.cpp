@@ -112,6 +112,26 @@ TEST_CASE("a fusion that began anew is not waited for with the maps that it can 
   CHECK(readers.outstanding(5).empty());
 }
 
+TEST_CASE("an ingest that comes after a fusion that began anew has all its maps waited for") {
+  Readers readers({"first", "anew"}, kEpoch);
+  readers.take(progress_of("anew", 8, 5, 10), 5, 1);
+  readers.take(progress_of("fusion", 7), 5, 1);
+  readers.take(progress_of("fusion", 1), 5, 2);
+  readers.take(progress_of("first", 1, 5, 2), 5, 3);
+  readers.take(progress_of("anew", 1, 5, 3), 5, 3);
+  CHECK(readers.outstanding(5) ==
+        Names{"fusion took 0 of 2 maps of 'first'", "fusion took 0 of 3 maps of 'anew'"});
+}
+
+TEST_CASE("once a fusion that began anew takes maps, the later ones are waited for, told or not") {
+  Readers readers({"top"}, kEpoch);
+  readers.take(progress_of("top", 1, 5, 10), 5, 1);
+  readers.take(taken_by_fusion(7, "top", 8), 5, 1);
+  readers.take(taken_by_fusion(1, "top", 12), 5, 2);
+  readers.take(progress_of("top", 2, 5, 14), 5, 3);
+  CHECK(readers.outstanding(5) == Names{"fusion took 12 of 14 maps of 'top'"});
+}
+
 TEST_CASE("who has fallen silent can be left out") {
   Readers readers({"front", "rear"}, kEpoch);
   readers.take(progress_of("front", 1, 4), 5, 100);

@@ -77,13 +77,7 @@ int Program::kill() {
 }
 
 int Program::kill_asleep() {
-  const auto asleep = [this] {
-    std::string stat;
-    std::getline(std::ifstream("/proc/" + std::to_string(pid_) + "/stat"), stat);
-    const auto name_end = stat.rfind(')');
-    return name_end != std::string::npos && stat.compare(name_end, 3, ") S") == 0;
-  };
-  eventually(asleep);
+  eventually([this] { return ipc::test::is_asleep(pid_); });
   return kill();
 }
 
