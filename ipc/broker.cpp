@@ -39,6 +39,7 @@ class HookedRouDi : private Hook, public iox::roudi::RouDi {
   }
 };
 
+/// Takes the bell that start() made away again.
 struct DoorbellOwner {
   DoorbellOwner() = default;
   ~DoorbellOwner() { Doorbell::remove(); }
@@ -86,6 +87,7 @@ bool wait_until_it_answers() {
 struct Broker::State {
   State(const BrokerOptions& options, const std::string& group)
       : components(roudi_config(options.plan, group)), roudi(components, options.heartbeat) {}
+
   iox::roudi::IceOryxRouDiComponents components;
   DoorbellOwner doorbell;  // goes after the broker's socket: whoever may still join finds it
   HookedRouDi roudi;

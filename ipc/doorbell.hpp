@@ -45,7 +45,7 @@ class Doorbell {
   [[nodiscard]] std::uint32_t rings() const;
 
   /// Sleeps until it has rung more often than `known`, for any of `sets` and now and then for others. False
-  /// if `deadline` passed.
+  /// if `deadline` passed (or the kernel refuses).
   bool wait(std::uint32_t known, std::uint32_t sets, std::chrono::steady_clock::time_point deadline) const;
 
  private:
