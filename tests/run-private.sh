@@ -2,7 +2,7 @@
 # run-private.sh COMMAND [ARGUMENT]...
 # Runs COMMAND with a /dev/shm and a /tmp of its own, so that it may start a broker. Works as root and, where
 # user namespaces are allowed, as anybody. What lies below /tmp and is needed (the repository, the command, the
-# working directory, GVOM_SHARED) stays where it was. Exits with 77 where the system does not allow it.
+# working directory, the recordings) stays where it was. Exits with 77 where the system does not allow it.
 set -eu
 
 if [ "${GVOM_PRIVATE:-}" != inside ]; then
@@ -16,13 +16,13 @@ if [ "${GVOM_PRIVATE:-}" != inside ]; then
 fi
 unset GVOM_PRIVATE
 
+here=$(CDPATH='' cd "$(dirname "$0")/.." && pwd)  # before /tmp is hidden: it may lie there
 mount -t tmpfs tmpfs /dev/shm
 mkdir /dev/shm/outer
 mount --rbind /tmp /dev/shm/outer
 mount -t tmpfs tmpfs /tmp
 chmod 1777 /tmp /dev/shm
-here=$(CDPATH='' cd "$(dirname "$0")/.." && pwd)
-for path in "$here" "$0" "$PWD" "${GVOM_SHARED:-}" "$@"; do
+for path in "$here" "${here%/*}/shared" "$PWD" "${GVOM_SHARED:-}" "$@"; do
   case $path in
     /tmp/*)
       entry=${path#/tmp/}
