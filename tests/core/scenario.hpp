@@ -27,7 +27,8 @@ struct ScenarioSize {
   int size_z;
   int sweeps;
   int returns;  ///< Of a sweep.
-  /// Everything on whole and half voxels: rays along axes and diagonals, through edges and corners.
+  /// Everything on whole and half voxels: rays along axes and diagonals, through edges and corners; also of
+  /// edges such as 0.4 m, where a division and a product with the reciprocal name different voxels (R1).
   bool on_faces;
 };
 

@@ -17,6 +17,31 @@ TEST_CASE("A grid's origin is half its size below the vehicle, lowered to a whol
   CHECK(grid_around({0.4, 0.4, 264, 8}, {0, 0, 0}).origin == Int3{-136, -136, -8});
 }
 
+// 1.2 / 0.4 and 4.8 / 0.4 are, as doubles, below 3 and 12; the products with 1 / 0.4 are 3 and 12.
+TEST_CASE("A voxel is the floor of a division, not of a product with the reciprocal") {
+  const MapConfig map{0.4, 0.4, 8, 8};
+  CHECK(grid_around(map, {4.8, 0, 0}).origin == Int3{0, -8, -8});
+  CHECK(grid_around(map, {0, 4.8, 0}).origin == Int3{-8, 0, -8});
+  CHECK(grid_around(map, {0, 0, 4.8}).origin == Int3{-8, -8, 0});
+
+  MapperConfig config;
+  config.map = {0.4, 0.4, 64, 64};
+  OdometryBuffer odometry(1);
+  odometry.add({0, {}});
+  Sweep sweep;
+  sweep.times_ns = {0};
+  sweep.returns = {{1.2, 2.4, 4.8, 0}};
+  SweepMapper mapper(config, LidarGeometry{}, 1);
+  BrickMapStorage storage;
+  const auto shape = mapper.count(sweep, odometry);
+  REQUIRE(shape);
+  mapper.write(storage.resize(*shape));
+  const BrickMapView seen = storage.view(mapper.grid(), 0, mapper.T_odom_base());
+  const std::int32_t brick = seen.brick_at({0, 0, 1});
+  REQUIRE(brick >= 0);
+  CHECK(seen.lookup[brick * kBrickCells + static_cast<int>(cell_in_brick(2, 5, 11))] == 0);
+}
+
 TEST_CASE("A return 10 m ahead is one hit and a pass in each of the 20 voxels before it") {
   Rig rig;
   rig.see({{10.25, 0.25, 1.25}});

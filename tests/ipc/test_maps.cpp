@@ -49,7 +49,7 @@ LayersWriter write_layers(LayersPublisher& publisher, float height_m) {
   std::uint8_t cost = 0;
   for (auto& value : layers.layer_u8(LayerId::cost)) value = cost++;
   Layers& header = layers.header();
-  header.resolution_m[0] = header.resolution_m[1] = header.resolution_m[2] = 0.5;
+  header.resolution_m[0] = header.resolution_m[1] = header.resolution_m[2] = 0.4;
   header.origin_voxels[0] = -32;
   header.origin_voxels[1] = 8;
   header.lidar_count = 2;
@@ -234,8 +234,11 @@ TEST_CASE("who joins late gets the newest layers") {
     EXPECT(layers->layer_f(LayerId::height)[4095] == 3.0f && layers->layer_f(LayerId::height).size() == 4096);
     EXPECT(layers->layer_u8(LayerId::cost)[layers->at(2, 3)] == (3 * 64 + 2) % 256);
     EXPECT(layers->layer_u8(LayerId::height).empty() && layers->layer_f(LayerId::cost).empty());
-    EXPECT(layers->index_of(-16.0, 4.0) == 0u && layers->index_of(-15.01, 4.6) == 65u);
-    EXPECT(!layers->index_of(-16.1, 4.0) && !layers->index_of(16.0, 4.0) && !layers->index_of(NAN, 4.0));
+    EXPECT(layers->index_of(-12.8, 3.2) == 0u && layers->index_of(-12.01, 3.7) == 65u);
+    EXPECT(!layers->index_of(-12.9, 3.2) && !layers->index_of(12.8, 3.2) && !layers->index_of(NAN, 3.2));
+    // 1.2 / 0.4 is below 3, 1.2 * (1 / 0.4) is 3 (R1); 4.8 / 0.4 is below 12.
+    EXPECT(layers->index_of(1.2, 3.2) == layers->at(32 + 2, 0));
+    EXPECT(layers->index_of(1.2, 4.8) == layers->at(32 + 2, 3));
     EXPECT(layers->missing_lidars() == std::vector<std::string>{"rear"});
     EXPECT(layers->age() > 0ns && layers->age() < kPatience);
     EXPECT(layers->stage_ages().fused > layers->age() + 4ms && layers->stage_ages().received < 0ns);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/grid.hpp"
 #include "tools/common/npy.hpp"
 #include "tools/sim/parallel.hpp"
 
@@ -79,7 +80,7 @@ void mark_person(const Scene& scene, GroundTruth& truth) {
       for (double dx = -person.radius_m; dx <= person.radius_m; dx += kSample) {
         if (dx * dx + dy * dy > person.radius_m * person.radius_m) continue;
         const auto index = [&](double value, int axis) {
-          return static_cast<std::int64_t>(std::floor(value / truth.resolution_m)) - truth.origin[axis];
+          return static_cast<std::int64_t>(std::floor(voxel_coordinate(value, truth.resolution_m))) - truth.origin[axis];
         };
         const std::int64_t ix = index(person.centre.x() + dx, 0);
         const std::int64_t iy = index(person.centre.y() + dy, 1);
@@ -137,7 +138,7 @@ nlohmann::ordered_json describe(const Scene& scene, const GroundTruth& truth) {
 GroundTruth sample_truth(const Scene& scene, double resolution_m) {
   const Area& area = scene.world.truth_area();
   const auto voxel = [&](double value) {
-    return static_cast<std::int64_t>(std::floor(value / resolution_m));
+    return static_cast<std::int64_t>(std::floor(voxel_coordinate(value, resolution_m)));
   };
   GroundTruth truth{};
   truth.resolution_m = resolution_m;
