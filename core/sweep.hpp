@@ -22,7 +22,8 @@ struct Sweep {
   std::int64_t stamp_ns = 0;  ///< The time of the last return (R1).
   /// CLOCK_MONOTONIC when the last packet of the sweep was read; 0 where a replay has no such moment.
   std::int64_t received_ns = 0;
-  bool complete = true;  ///< False if packets or columns of it are missing.
+  bool complete = true;                ///< False if packets or columns of it are missing.
+  double columns_seen_fraction = 1.0;  ///< Of its columns, 0 .. 1; 1 if it is complete.
 
   void clear() {
     returns.clear();
@@ -30,6 +31,7 @@ struct Sweep {
     stamp_ns = 0;
     received_ns = 0;
     complete = true;
+    columns_seen_fraction = 1.0;
   }
 };
 

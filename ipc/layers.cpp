@@ -58,6 +58,7 @@ Expected<LayersWriter> LayersPublisher::loan(int size_xy, int size_z) {
 
 std::uint64_t LayersPublisher::publish(LayersWriter&& writer, std::int64_t stamp_ns, std::uint64_t epoch) {
   writer.header().mono_published_ns = monotonic_ns();
+  writer.header().suspended_ns = suspended_ns();
   return port_.publish(std::move(writer.loan_), writer.layout_.bytes, stamp_ns, epoch);
 }
 
@@ -103,6 +104,17 @@ std::vector<std::string> LayersSample::missing_lidars() const {
     if (lidar.missing != 0) names.emplace_back(text_of(lidar.name));
   }
   return names;
+}
+
+std::vector<LayersSample::IncompleteLidar> LayersSample::incomplete_lidars() const {
+  std::vector<IncompleteLidar> incomplete;
+  for (std::uint32_t i = 0; i < header().lidar_count; ++i) {
+    const LidarStatus& lidar = header().lidars[i];
+    const bool came = lidar.newest_stamp_ns != 0;
+    if (came && lidar.columns_seen_fraction < 1)
+      incomplete.push_back({std::string(text_of(lidar.name)), lidar.columns_seen_fraction});
+  }
+  return incomplete;
 }
 
 Expected<LayersSubscriber> LayersSubscriber::open(Runtime& runtime) {

@@ -76,8 +76,16 @@ class LayersSample {
   [[nodiscard]] std::chrono::nanoseconds age() const;
   [[nodiscard]] StageAges stage_ages() const;
 
-  /// Names of the vehicle's lidars that have no map in the window.
+  /// Names of lidars that are not in the map (LidarStatus::missing): blind sides. Among them those that
+  /// publish maps but are unknown to fusion's configuration.
   [[nodiscard]] std::vector<std::string> missing_lidars() const;
+
+  /// A lidar of whose newest sweep columns are missing.
+  struct IncompleteLidar {
+    std::string name;
+    double columns_seen_fraction;  ///< Above 0, under 1.
+  };
+  [[nodiscard]] std::vector<IncompleteLidar> incomplete_lidars() const;
 
  private:
   Chunk chunk_;
@@ -96,6 +104,7 @@ class LayersSubscriber {
   [[nodiscard]] bool has_data() const { return port_.has_data(); }
   [[nodiscard]] const InCounters& counters() const { return port_.counters(); }
   std::optional<std::string> new_refusal() { return port_.new_refusal(); }
+  [[nodiscard]] const std::string& newest_refusal() const { return port_.newest_refusal(); }
   InPort& port() { return port_; }
 
  private:

@@ -58,7 +58,10 @@ struct VoxelRecord {
 /// with nx_b = size_voxels[0] / 8 and so on. Topic "buffer_map" (one sweep of one lidar) and "voxel_map"
 /// (the fused map: counts summed over the window).
 struct BrickMap {
-  static constexpr std::uint16_t kVersion = 2;
+  static constexpr std::uint16_t kVersion = 3;
+  enum Flags : std::uint32_t {
+    kLossless = 1,  // of a replay that waits for its readers: fusion makes layers of each map
+  };
   MessageHeader header;
   char lidar[kNameLength];        // empty in a voxel map
   std::int32_t origin_voxels[3];  // world voxel of cell (0, 0, 0), multiples of 8 (R1)
@@ -69,7 +72,9 @@ struct BrickMap {
   std::uint32_t brick_slots;
   std::uint32_t brick_count;
   std::uint32_t record_count;
-  std::uint32_t complete;            // 0: packets of the sweep are missing
+  float columns_seen_fraction;  // of the sweep's columns, 0 .. 1; 1: it is complete
+  std::uint32_t flags;          // Flags
+  std::uint32_t reserved;
   std::uint64_t returns;             // that became hits or rays
   std::uint64_t dropped_not_finite;  // returns dropped by the filter (R2), this sweep
   std::uint64_t dropped_too_near;
@@ -113,14 +118,17 @@ struct LidarStatus {
                           // is more than fusion.missing_after_s (0.3 s) older than the newest of all lidars,
                           // by their stamps. If all fall silent at once none is: then the layers' age says so
   std::uint64_t maps_received;
-  std::uint64_t maps_lost;  // gaps in its sequence
+  std::uint64_t maps_lost;      // gaps in its sequence
+  float columns_seen_fraction;  // of the columns of its newest sweep, 0 .. 1; 1: complete. 0: none came yet
+  std::uint32_t unknown;        // 1: it publishes maps, but fusion's configuration does not have it: it is
+                                // missing, and its maps are never taken
 };
 
 /// Topic "layers": the header, then 13 arrays of n_xy * n_xy values indexed [y][x], in the order of
 /// LayerId, each aligned to 64 bytes. Unknown is NaN in float layers (R9..R16).
 struct Layers {
   static constexpr MessageType kType = MessageType::layers;
-  static constexpr std::uint16_t kVersion = 1;
+  static constexpr std::uint16_t kVersion = 2;
   MessageHeader header;
   std::int32_t origin_voxels[3];  // world voxel of column (0, 0) and of the grid's floor
   std::int32_t size_voxels[3];
@@ -135,6 +143,8 @@ struct Layers {
   std::int64_t mono_map_published_ns;
   std::int64_t mono_fused_ns;
   std::int64_t mono_published_ns;
+  std::int64_t suspended_ns;  // how long the machine had been suspended since its start when they were
+                              // published: CLOCK_MONOTONIC stands still then, and the age must not
 };
 
 /// Topic "progress": what a reader has finished, so that a lossless replay can wait for it.
@@ -160,14 +170,17 @@ enum class HealthState : std::uint32_t { starting = 0, ok = 1, degraded = 2, fai
 /// Topic "health", at 1 Hz from every process.
 struct Health {
   static constexpr MessageType kType = MessageType::health;
-  static constexpr std::uint16_t kVersion = 2;
+  static constexpr std::uint16_t kVersion = 3;
   static constexpr int kMaxCounters = 40;
   static constexpr int kMaxStages = 8;
   MessageHeader header;
   char process[2 * kNameLength];  // runtime name, e.g. "gvom-ingest-top"
   std::uint32_t state;            // HealthState
   std::uint32_t pid;
-  char reason[160];           // why it is not ok, in words
+  char version[16];           // of gvom, e.g. "0.3.0"
+  std::uint64_t config_hash;  // of its configuration as resolved: FNV-1a, 64 bits, over what --print-config
+                              // prints
+  char reason[256];           // why it is not ok, in words
   char backend[32];           // "cpu" or "cuda"; empty where there is none
   char backend_details[160];  // why this one, on what it runs, how it reaches the payloads: in words
   double rate_hz;             // of its product over the last second

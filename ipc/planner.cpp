@@ -29,6 +29,7 @@ Expected<PlannerClient> PlannerClient::connect(const std::string& name, std::chr
 
 Expected<LayersSample> PlannerClient::newest_layers(std::chrono::milliseconds timeout) {
   const auto deadline = std::chrono::steady_clock::now() + timeout;
+  const std::uint64_t refused_before = counters().refused();
   while (true) {
     if (auto sample = layers_.take_newest()) return std::move(*sample);
     if (!runtime_.broker_alive()) {
@@ -37,8 +38,9 @@ Expected<LayersSample> PlannerClient::newest_layers(std::chrono::milliseconds ti
     }
     const auto left = until(deadline);
     if (left.count() <= 0 || waiter_.wait(std::min(left, kBrokerCheckPeriod)) == WaitResult::woken) {
-      return tl::unexpected(
-          Error{ErrorKind::timeout, "no new layers within " + std::to_string(timeout.count()) + " ms"});
+      std::string why = "no new layers within " + std::to_string(timeout.count()) + " ms";
+      if (counters().refused() > refused_before) why += ": " + layers_.newest_refusal();
+      return tl::unexpected(Error{ErrorKind::timeout, std::move(why)});
     }
   }
 }

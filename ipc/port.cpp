@@ -53,9 +53,10 @@ Error loan_error(const Topic& topic, std::size_t bytes, iox::popo::AllocationErr
 /// Counts a message that is not handed out; the first time for each reason, says why.
 void refuse(InPortState& state, std::uint64_t& counter, const std::string& why) {
   ++counter;
+  state.newest_refusal = title(state.topic) + ": " + why;
   if (std::find(state.told.begin(), state.told.end(), &counter) != state.told.end()) return;
   state.told.push_back(&counter);
-  state.refusals.push_back(title(state.topic) + ": message refused: " + why);
+  state.refusals.push_back(state.newest_refusal);
 }
 
 void count_gap(InPortState& state, std::uint64_t origin, std::uint64_t sequence) {
@@ -93,8 +94,11 @@ bool accept(InPortState& state, const void* payload) {
     count_gap(state, static_cast<std::uint64_t>(chunk->originId()),
               static_cast<const MessageHeader*>(payload)->sequence);
   }
-  if (refusal) refuse(state, counter_of(state.counters, refusal->reason), refusal->why);
-  return !refusal;
+  if (!refusal) return true;
+  const bool names_release = refusal->reason == Refusal::Reason::version;
+  refuse(state, counter_of(state.counters, refusal->reason),
+         (names_release ? "" : "message refused: ") + refusal->why);
+  return false;
 }
 
 }  // namespace
@@ -186,7 +190,8 @@ std::optional<Chunk> InPort::take() {
     auto result = state_->subscriber.take();
     if (result.has_error()) {
       if (result.get_error() == iox::popo::ChunkReceiveResult::TOO_MANY_CHUNKS_HELD_IN_PARALLEL) {
-        refuse(*state_, state_->counters.refused_held, "this reader holds too many messages already");
+        refuse(*state_, state_->counters.refused_held,
+               "message refused: this reader holds too many messages already");
       }
       return std::nullopt;
     }
@@ -202,6 +207,10 @@ bool InPort::has_data() const {
 }
 const InCounters& InPort::counters() const {
   return state_->counters;
+}
+
+const std::string& InPort::newest_refusal() const {
+  return state_->newest_refusal;
 }
 
 std::optional<std::string> InPort::new_refusal() {

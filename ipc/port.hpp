@@ -100,6 +100,8 @@ class InPort {
 
   /// Why messages were refused, in words, each reason once: for the log.
   std::optional<std::string> new_refusal();
+  /// Why the newest of them was, in words; empty if none was.
+  [[nodiscard]] const std::string& newest_refusal() const;
 
  private:
   friend class Waiter;

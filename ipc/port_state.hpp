@@ -37,7 +37,8 @@ struct InPortState {
   InCounters counters;
   std::array<Origin, 64> origins{};
   std::size_t next_origin = 0;
-  std::vector<std::string> refusals;       // not asked for yet
+  std::vector<std::string> refusals;  // not asked for yet
+  std::string newest_refusal;
   std::vector<const std::uint64_t*> told;  // counters whose reason was told
 };
 

@@ -61,6 +61,12 @@ Expected<void> check_may_join(const std::string& name, std::chrono::milliseconds
   return check_name_is_free(name);
 }
 
+std::int64_t clock_ns(clockid_t clock) {
+  timespec now{};
+  ::clock_gettime(clock, &now);
+  return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
+}
+
 }  // namespace
 
 struct Runtime::State {
@@ -81,9 +87,16 @@ Expected<void> check_runtime_name(const std::string& name) {
 }
 
 std::int64_t monotonic_ns() {
-  timespec now{};
-  ::clock_gettime(CLOCK_MONOTONIC, &now);
-  return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
+  return clock_ns(CLOCK_MONOTONIC);
+}
+
+std::int64_t suspended_ns() {
+  std::int64_t most_ns = 0;  // each look says at most the truth: this thread may pause within it
+  for (int look = 0; look < 3; ++look) {
+    const std::int64_t boot_ns = clock_ns(CLOCK_BOOTTIME);
+    most_ns = std::max(most_ns, boot_ns - clock_ns(CLOCK_MONOTONIC));
+  }
+  return (most_ns + 500'000) / 1'000'000 * 1'000'000;
 }
 
 Expected<Runtime> Runtime::connect(const std::string& name, std::chrono::milliseconds timeout, LogSink log) {

@@ -28,6 +28,10 @@ bool broker_answers();
 /// CLOCK_MONOTONIC, ns: the clock of all mono_*_ns.
 std::int64_t monotonic_ns();
 
+/// How long the machine was suspended since its start, in whole milliseconds: CLOCK_MONOTONIC stands still
+/// then.
+std::int64_t suspended_ns();
+
 /// A stretch of this process's address space.
 struct MemoryRange {
   std::byte* base = nullptr;

@@ -34,9 +34,38 @@ Complaint too_many(const char* what, std::uint64_t count, std::uint64_t limit) {
   return "claims " + std::to_string(count) + " " + what + ", at most " + std::to_string(limit) + " can be";
 }
 
+/// Grows with each kVersion that is raised.
+struct FormerVersion {
+  MessageType type;
+  std::uint16_t version;
+  const char* release;  // the last that had it
+};
+constexpr FormerVersion kFormerVersions[] = {
+    {MessageType::buffer_map, 1, "0.1"}, {MessageType::buffer_map, 2, "0.2"},
+    {MessageType::voxel_map, 1, "0.1"},  {MessageType::voxel_map, 2, "0.2"},
+    {MessageType::layers, 1, "0.2"},     {MessageType::health, 1, "0.1"},
+    {MessageType::health, 2, "0.2"},
+};
+
+std::string release_of(const Topic& topic, std::uint16_t version) {
+  for (const FormerVersion& former : kFormerVersions)
+    if (former.type == topic.type && former.version == version) return std::string("gvom ") + former.release;
+  return version > topic.version ? "a newer gvom" : "no known gvom";
+}
+
+std::string other_version(const Topic& topic, std::uint16_t version) {
+  return "message of " + release_of(topic, version) + " (version " + std::to_string(version) +
+         ") refused, this is " + release() + " (version " + std::to_string(topic.version) + ")";
+}
+
 std::string mismatch(const char* what, std::uint64_t theirs, std::uint64_t ours) {
   return std::string(what) + " " + std::to_string(theirs) + ", this reader knows " + std::to_string(ours) +
          " only";
+}
+
+Complaint bad_fraction(float fraction) {
+  if (fraction >= 0.0F && fraction <= 1.0F) return std::nullopt;
+  return "claims " + std::to_string(fraction) + " of a sweep's columns";
 }
 
 Complaint first_of(Complaint a, Complaint b) {
@@ -105,10 +134,12 @@ Complaint check_layers(const std::byte* message, std::size_t bytes) {
   const auto& layers = as<Layers>(message);
   if (auto complaint = bad_frame(layers)) return complaint;
   if (auto complaint = bad_time({layers.mono_received_ns, layers.mono_mapped_ns, layers.mono_map_published_ns,
-                                 layers.mono_fused_ns, layers.mono_published_ns}))
+                                 layers.mono_fused_ns, layers.mono_published_ns, layers.suspended_ns}))
     return complaint;
   for (const LidarStatus& lidar : layers.lidars)
-    if (auto complaint = bad_time({lidar.newest_stamp_ns})) return complaint;
+    if (auto complaint =
+            first_of(bad_time({lidar.newest_stamp_ns}), bad_fraction(lidar.columns_seen_fraction)))
+      return complaint;
   return first_of(too_many("lidars", layers.lidar_count, kMaxLidars),
                   wrong_size(bytes, layers_bytes(layers.size_voxels[0])));
 }
@@ -121,6 +152,7 @@ Complaint check_brick_map(const std::byte* message, std::size_t bytes) {
   if (auto complaint =
           bad_time({map.mono_received_ns, map.mono_mapped_ns, map.mono_published_ns, map.odometry_jump_ns}))
     return complaint;
+  if (auto complaint = bad_fraction(map.columns_seen_fraction)) return complaint;
   const std::uint64_t voxels = std::uint64_t(size[0]) * std::uint64_t(size[1]) * std::uint64_t(size[2]);
   if (map.brick_slots != voxels / kBrickVoxels) {
     return "claims " + std::to_string(map.brick_slots) + " brick slots, its grid has " +
@@ -139,6 +171,10 @@ bool is_lidar_name(std::string_view name) {
 
 }  // namespace
 
+const char* release() {
+  return GVOM_VERSION;
+}
+
 std::optional<Refusal> check_message(const Topic& topic, const std::byte* message, std::size_t chunk_bytes) {
   using Reason = Refusal::Reason;
   if (chunk_bytes < sizeof(MessageHeader) || as<MessageHeader>(message).magic != kMagic) {
@@ -148,7 +184,7 @@ std::optional<Refusal> check_message(const Topic& topic, const std::byte* messag
   const auto type = static_cast<std::uint16_t>(topic.type);
   if (header.type != type) return Refusal{Reason::type, mismatch("message type", header.type, type)};
   if (header.version != topic.version) {
-    return Refusal{Reason::version, mismatch("version", header.version, topic.version)};
+    return Refusal{Reason::version, other_version(topic, header.version)};
   }
   if (header.size < sizeof(MessageHeader) || header.size > chunk_bytes) {
     return Refusal{Reason::size, mismatch("size", header.size, chunk_bytes)};

@@ -38,8 +38,11 @@ struct Topic {
 struct Refusal {
   enum class Reason { foreign, type, version, size };
   Reason reason;
-  std::string why;  ///< In words.
+  std::string why;  ///< In words; of another version, a sentence that names the release it is of.
 };
+
+/// Of this gvom, e.g. "0.3.0".
+const char* release();
 
 /// Nothing if the message at `message`, in a chunk of `chunk_bytes`, is one of the topic's and fits its
 /// chunk: whatever its counts and sizes say can then be read.

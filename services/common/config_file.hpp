@@ -2,6 +2,7 @@
 // out-of-range key is an error that names the place, the key and what was expected.
 #pragma once
 
+#include <cstdint>
 #include <iosfwd>
 #include <string>
 #include <string_view>
@@ -30,6 +31,9 @@ tl::expected<VehicleConfig, ConfigError> load_vehicle_config(const std::string& 
 
 /// Complete YAML, each key with range, unit and meaning as a comment; it loads again to the same config.
 void print_config(const VehicleConfig& config, std::ostream& out);
+
+/// What the configuration resolves to, in a number: FNV-1a, 64 bits, over what print_config prints.
+std::uint64_t config_hash(const VehicleConfig& config);
 
 /// The table of all keys (key, default, unit, range, meaning) in Markdown.
 void print_config_reference(std::ostream& out);

@@ -1,4 +1,5 @@
 #include <ostream>
+#include <sstream>
 
 #include "services/common/config_file.hpp"
 #include "services/common/config_value.hpp"
@@ -56,6 +57,14 @@ void print_config(const VehicleConfig& config, std::ostream& out) {
     out << "  '" << lidar.name << "':\n";
     print_rows(lidar_rows(), lidar, "    ", out);
   }
+}
+
+std::uint64_t config_hash(const VehicleConfig& config) {
+  std::ostringstream text;
+  print_config(config, text);
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const char c : text.str()) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+  return hash;
 }
 
 void print_config_reference(std::ostream& out) {

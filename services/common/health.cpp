@@ -73,8 +73,10 @@ double StageHistogram::percentile_ms(double fraction) const {
   return 0.0;
 }
 
-HealthReport::HealthReport(std::string_view process) {
+HealthReport::HealthReport(std::string_view process, std::uint64_t config_hash) {
   copy_text(message_.process, process);
+  copy_text(message_.version, GVOM_VERSION);
+  message_.config_hash = config_hash;
   message_.pid = static_cast<std::uint32_t>(getpid());
 }
 

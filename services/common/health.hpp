@@ -34,8 +34,8 @@ class StageHistogram {
 /// One for each process, used from its working loop. Nothing here allocates.
 class HealthReport {
  public:
-  /// `process` is the runtime name, e.g. "gvom-ingest-top".
-  explicit HealthReport(std::string_view process);
+  /// `process` is the runtime name, e.g. "gvom-ingest-top"; `config_hash` as of config_file.hpp.
+  HealthReport(std::string_view process, std::uint64_t config_hash);
 
   /// A new counter; the reference stays valid. Throws std::length_error beyond Health::kMaxCounters (a
   /// defect).

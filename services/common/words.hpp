@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <string_view>
 
+#include "ipc/messages.hpp"
+
 namespace gvom::services {
 
 /// As long as Health's reason; what is beyond is cut.
@@ -31,7 +33,7 @@ class Words {
     return std::min(static_cast<std::size_t>(wanted), text_.size() - 1 - length_);
   }
 
-  std::array<char, 160> text_{};
+  std::array<char, sizeof(ipc::Health::reason)> text_{};
   std::size_t length_ = 0;
 };
 

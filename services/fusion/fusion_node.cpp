@@ -10,6 +10,7 @@
 
 #include "ipc/text.hpp"
 #include "services/common/bus/core_types.hpp"
+#include "services/common/config_file.hpp"
 #include "services/fusion/missing.hpp"
 
 namespace gvom::fusion {
@@ -33,7 +34,7 @@ FusionNode::FusionNode(const services::VehicleConfig& config, ipc::Runtime& runt
       bus_(bus),
       lifecycle_(lifecycle),
       broker_(runtime),
-      health_(runtime.name()),
+      health_(runtime.name(), services::config_hash(config)),
       counters_(health_),
       fuser_(std::move(backend.backend)) {
   health_.set_backend(backend.name, backend.details);
@@ -219,6 +220,7 @@ void FusionNode::fill_lidars(ipc::Layers& header) const {
     status.missing = is_missing(window, static_cast<int>(i), missing_after_ns) ? 1 : 0;
     status.maps_received = lidar.maps.counters().received;
     status.maps_lost = lidar.maps.counters().lost;
+    status.columns_seen_fraction = lidar.columns_seen_fraction;
   }
 }
 
@@ -238,7 +240,7 @@ void FusionNode::publish_voxels() {
   }
   const LayerMoment moment = fuser_.moment();
   services::set_frame(moment.grid, moment.T_odom_base, writer->header());
-  writer->header().complete = 1;
+  writer->header().columns_seen_fraction = 1;
   if (const auto written = fuser_.write_voxels(services::arrays_of(*writer)); !written)
     return fail(written.error());
   bus_.voxels.publish(std::move(*writer), moment.stamp_ns, epoch_);

@@ -33,6 +33,7 @@ std::optional<ArrivedMap> MapInbox::take() {
     held_[token] = std::move(*sample);
     lidar.taken_sequence = held_[token]->header().header.sequence;
     lidar.newest_stamp_ns = held_[token]->header().header.stamp_ns;
+    lidar.columns_seen_fraction = held_[token]->header().columns_seen_fraction;
     return ArrivedMap{static_cast<int>(index), token, &*held_[token]};
   }
   return std::nullopt;

@@ -39,6 +39,7 @@ class MapInbox {
     ipc::BrickMapSubscriber maps;
     std::uint64_t taken_sequence = 0;
     std::int64_t newest_stamp_ns = 0;
+    float columns_seen_fraction = 0;  // of the newest sweep
   };
   [[nodiscard]] const std::vector<Lidar>& lidars() const { return lidars_; }
   /// Why a message was refused, each reason once.

@@ -7,6 +7,7 @@
 #include "ipc/text.hpp"
 #include "services/common/bus/core_types.hpp"
 #include "services/common/bus/pool_spec.hpp"
+#include "services/common/config_file.hpp"
 
 namespace gvom::ingest {
 
@@ -47,7 +48,7 @@ IngestNode::IngestNode(const services::VehicleConfig& config, const services::Li
       bus_(bus),
       lifecycle_(lifecycle),
       broker_(runtime),
-      health_(runtime.name()),
+      health_(runtime.name(), services::config_hash(config)),
       counters_(health_),
       mapper_(config.mapper.map, std::move(equipment.backend.backend)),
       credit_(lidar.name),
@@ -166,7 +167,8 @@ bool IngestNode::publish(const Sweep& sweep, const BrickMapShape& shape, std::in
   ipc::BrickMap& header = writer->header();
   services::set_frame(mapper_.grid(), mapper_.T_odom_base(), header);
   const FilterCounts& filter = mapper_.filter_counts();
-  header.complete = sweep.complete ? 1 : 0;
+  header.columns_seen_fraction = static_cast<float>(sweep.columns_seen_fraction);
+  header.flags = lossless_ ? ipc::BrickMap::kLossless : 0u;
   header.returns = filter.used;
   header.dropped_not_finite = filter.not_finite;
   header.dropped_too_near = filter.too_near;

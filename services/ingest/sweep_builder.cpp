@@ -45,6 +45,7 @@ bool SweepBuilder::close(double fraction, bool complete, Sweep& out) {
     open_.stamp_ns = *std::max_element(open_.times_ns.begin(), open_.times_ns.end());
   }
   open_.complete = complete;
+  open_.columns_seen_fraction = complete ? 1.0 : fraction;
   ++counters_.sweeps;
   if (!complete) ++counters_.incomplete_sweeps;
   std::swap(open_, out);

@@ -39,11 +39,11 @@ void add_options(CLI::App& app, Options& options) {
       ->capture_default_str();
 }
 
-odometry::ReplayOptions replay_options(const Options& options) {
+odometry::ReplayOptions replay_options(const Options& options, const services::VehicleConfig& config) {
   const odometry::Rate rate = odometry::parse_rate(options.rate).value();  // checked with the command line
   const std::chrono::duration<double> wait(options.wait_readers_s);
   return {rate.factor, rate.lossless, options.loop,
-          std::chrono::duration_cast<std::chrono::milliseconds>(wait)};
+          std::chrono::duration_cast<std::chrono::milliseconds>(wait), services::config_hash(config)};
 }
 
 ExitCode replay(const std::vector<StampedPose>& poses, const std::vector<std::string>& lidars,
@@ -84,5 +84,5 @@ int main(int argc, char** argv) {
   }
   std::vector<std::string> lidars;
   for (const services::LidarConfig& lidar : config->lidars) lidars.push_back(lidar.name);
-  return to_int(replay(*poses, lidars, replay_options(options), lifecycle));
+  return to_int(replay(*poses, lidars, replay_options(options, *config), lifecycle));
 }

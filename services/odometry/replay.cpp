@@ -60,7 +60,7 @@ Replay::Replay(const std::vector<StampedPose>& poses, const std::vector<std::str
       broker_(runtime),
       epoch_(now_ns()),
       readers_(lidars, epoch_),
-      health_(runtime.name()),
+      health_(runtime.name(), options.config_hash),
       published_(health_.counter("published")),
       rounds_(health_.counter("rounds")),
       restarts_(health_.counter("reader_restarts")),

@@ -28,6 +28,7 @@ struct ReplayOptions {
   bool lossless = false;  ///< As fast as the slowest reader takes it, instead of `rate`.
   bool loop = false;
   std::chrono::milliseconds wait_readers{10000};
+  std::uint64_t config_hash = 0;  ///< For Health.
 };
 
 /// This process's ends of the topics.

@@ -139,6 +139,21 @@ TEST_CASE("no key stands twice in the table and every key has its field for itse
   }
 }
 
+TEST_CASE("the hash tells configurations apart, however they were written, and nothing else") {
+  const std::string file = GVOM_SOURCE_DIR "/config/vehicles/two_lidars.yaml";
+  const auto config = services::load_vehicle_config(file).value();
+  std::ostringstream text;
+  services::print_config(config, text);
+  const test::TemporaryFile printed(text.str());
+  const auto hash_with = [&](const std::string& set) {
+    return config_hash(services::load_vehicle_config(file, {set}).value());
+  };
+  CHECK(config_hash(services::load_vehicle_config(printed.path()).value()) == config_hash(config));
+  CHECK(hash_with("map.size_xy=" + std::to_string(config.mapper.map.size_xy)) == config_hash(config));
+  CHECK(hash_with("map.resolution_z_m=0.123") != config_hash(config));
+  CHECK(hash_with("lidars.front.T_base_sensor.z=0.123") != config_hash(config));
+}
+
 TEST_CASE("the shipped vehicle files load") {
   for (const std::string name : {"kitti", "ouster_os1_128", "two_lidars", "warthog"}) {
     const auto config = services::load_vehicle_config(GVOM_SOURCE_DIR "/config/vehicles/" + name + ".yaml");

@@ -48,7 +48,7 @@ TEST_CASE("a histogram takes every duration") {
 }
 
 TEST_CASE("a message is due at once, then each second") {
-  HealthReport report("gvom-test");
+  HealthReport report("gvom-test", 0xfedc);
   CHECK(report.due(5 * kSecond));
   report.take(5 * kSecond);
   CHECK_FALSE(report.due(6 * kSecond - 1));
@@ -56,11 +56,11 @@ TEST_CASE("a message is due at once, then each second") {
 }
 
 TEST_CASE("a message holds counters, stages since the last one, rate and state") {
-  HealthReport report("gvom-test");
+  HealthReport report("gvom-test", 0xfedc);
   std::uint64_t& sweeps = report.counter("sweeps");
   StageHistogram& mapping = report.stage("mapping");
   report.set_backend("cpu", "as configured");
-  report.set_state(ipc::HealthState::degraded, std::string(200, 'x'));
+  report.set_state(ipc::HealthState::degraded, std::string(300, 'x'));
   report.take(10 * kSecond);
 
   sweeps = 7;
@@ -68,10 +68,12 @@ TEST_CASE("a message holds counters, stages since the last one, rate and state")
   for (int i = 0; i < 20; ++i) report.count_product();
   const ipc::Health& message = report.take(12 * kSecond);
   CHECK(std::string(message.process) == "gvom-test");
+  CHECK(std::string(message.version) == "0.3.0");
+  CHECK(message.config_hash == 0xfedc);
   CHECK(std::string(message.backend) == "cpu");
   CHECK(std::string(message.backend_details) == "as configured");
   CHECK(message.state == 2);
-  CHECK(std::string(message.reason) == std::string(159, 'x'));
+  CHECK(std::string(message.reason) == std::string(255, 'x'));
   CHECK(message.rate_hz == Approx(10.0));
   REQUIRE(message.counter_count == 1);
   CHECK(std::string(message.counters[0].name) == "sweeps");
@@ -90,7 +92,7 @@ TEST_CASE("a message holds counters, stages since the last one, rate and state")
 }
 
 TEST_CASE("more names than a message holds are a defect that shows at start") {
-  HealthReport report("gvom-test");
+  HealthReport report("gvom-test", 0xfedc);
   for (int i = 0; i < ipc::Health::kMaxCounters; ++i) report.counter("c");
   CHECK_THROWS_AS(report.counter("one too many"), std::length_error);
   for (int i = 0; i < ipc::Health::kMaxStages; ++i) report.stage("s");

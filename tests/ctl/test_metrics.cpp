@@ -49,6 +49,10 @@ TEST_CASE("every figure is there, in seconds and bytes") {
         Approx(0.0025));
   CHECK(value("gvom_backend_info", R"({process="gvom-fusion",backend="cpu",details="an \"odd\" \\ name"})") ==
         1);
+  CHECK(value("gvom_build_info", R"({process="gvom-fusion",version="0.3.0",config="0123456789abcdef"})") ==
+        1);
+  CHECK(value("gvom_lidar_columns_seen_ratio", R"({lidar="front"})") == 1);
+  CHECK(value("gvom_lidar_unknown", R"({lidar="front"})") == 0);
   CHECK(value("gvom_restarts_total", R"({process="gvom-fusion"})") == 2);
   CHECK(value("gvom_health_age_seconds", R"({process="gvom-odometry"})") == Approx(0.5));
   CHECK(value("gvom_data_age_seconds", R"({process="gvom-ingest-front"})") == Approx(0.08));

@@ -102,6 +102,62 @@ TEST_CASE("old layers, missing lidars, old odometry and an empty pool are proble
                                  "the pool of 100 chunks of 1000 bytes is empty"});
 }
 
+TEST_CASE("who runs another configuration than the file's, or another gvom, is a problem") {
+  VehicleAt vehicle;
+  ipc::Health fusion = health_of("gvom-fusion", HealthState::ok, kNow_ns);
+  ++fusion.config_hash;
+  vehicle.observed.add(fusion);
+  ipc::Health front = health_of("gvom-ingest-front", HealthState::ok, kNow_ns);
+  ipc::set_text(front.version, "0.2.9");
+  vehicle.observed.add(front);
+  const ctl::Snapshot snapshot = vehicle.snapshot();
+  CHECK(snapshot.problems ==
+        std::vector<std::string>{"gvom-fusion runs with another configuration than the file's: restart it",
+                                 "gvom-ingest-front is of gvom 0.2.9, this is 0.3.0: restart it"});
+  CHECK_THAT(to_table(snapshot), Contains("    runs gvom 0.3.0, configuration 0123456789abcdf0\n") &&
+                                     Contains("\ngvom 0.3.0, configuration 0123456789abcdef\n"));
+  const auto json = nlohmann::json::parse(to_json(snapshot));
+  CHECK(json["version"] == "0.3.0");
+  CHECK(json["config_hash"] == "0123456789abcdef");
+  CHECK(json["processes"][2]["config_hash"] == "0123456789abcdf0");
+  CHECK(json["processes"][2]["other_config"] == true);
+  CHECK(json["processes"][3]["version"] == "0.2.9");
+  CHECK(json["processes"][3]["other_version"] == true);
+  CHECK(json["processes"][1]["other_config"] == false);
+  CHECK(json["processes"][0]["version"].is_null());
+
+  vehicle.expected.config_hash.reset();  // no file: nothing to compare with
+  CHECK(vehicle.snapshot().problems.size() == 1);
+  vehicle.ended_pid = kPid;  // who has ended runs nothing
+  for (const std::string& problem : vehicle.snapshot().problems) CHECK_THAT(problem, Contains("is missing"));
+}
+
+TEST_CASE("a message that was not read is a problem: somebody is of another gvom") {
+  VehicleAt vehicle;
+  const std::string why = "health: message of gvom 0.2 (version 2) refused, this is 0.3.0 (version 3)";
+  for (int i = 0; i < 2; ++i) vehicle.observed.add_refusal(why);
+  CHECK(vehicle.snapshot().problems == std::vector<std::string>{why});
+}
+
+TEST_CASE("a lidar that fusion does not know, and one whose newest sweep has gaps, are problems") {
+  VehicleAt vehicle;
+  ipc::Layers layers = layers_at(kNow_ns);
+  layers.lidars[0].columns_seen_fraction = 0.6F;
+  layers.lidars[1].columns_seen_fraction = 0.97F;
+  layers.lidar_count = 3;
+  ipc::set_text(layers.lidars[2].name, "left");
+  layers.lidars[2].missing = layers.lidars[2].unknown = 1;
+  vehicle.observed.add(layers);
+  const ctl::Snapshot snapshot = vehicle.snapshot();
+  CHECK(snapshot.problems ==
+        std::vector<std::string>{"lidar front's newest sweep has 60 % of its columns",
+                                 "lidar left is not in gvom-fusion's configuration: its maps are not taken"});
+  CHECK_THAT(to_table(snapshot), Contains("    the newest sweep of rear has 97.0 % of its columns\n"));
+  const auto json = nlohmann::json::parse(to_json(snapshot));
+  CHECK(json["layers"]["lidars"]["front"]["columns_seen_fraction"].get<double>() == Approx(0.6));
+  CHECK(json["layers"]["lidars"]["left"]["unknown"] == true);
+}
+
 TEST_CASE("a broker that is absent, hung or does not let us in is the only problem: the rest is unknown") {
   VehicleAt vehicle;
   vehicle.observed = {};

@@ -76,7 +76,10 @@ TEST_CASE("status: all is well while a replay runs, and a killed ingest is missi
   for (const Json& process : status.json["processes"]) {
     CHECK(process["state"] == "ok");
     CHECK(process["memory_bytes"] > 0);
+    CHECK(process["other_config"] == false);
   }
+  CHECK(status.process("gvom-ingest-rear")["config_hash"] == status.json["config_hash"]);
+  CHECK(status.process("gvom-odometry")["version"] == status.json["version"]);
   CHECK(status.process("gvom-roudi")["pid"] == graph.roudi().pid());
   const Json& fusion = status.process("gvom-fusion");
   CHECK(fusion["pid"] == graph.fusion().pid());
@@ -96,6 +99,14 @@ TEST_CASE("status: all is well while a replay runs, and a killed ingest is missi
     CHECK(pool["chunks"] > 0);
     CHECK(pool["used"] <= pool["chunks"]);
   }
+
+  Vehicle changed = graph.vehicle();  // as if the file were edited under them
+  changed.sets.emplace_back("fusion.missing_after_s=0.4");
+  const Status other = status_of(changed);
+  CHECK(other.code == 1);
+  CHECK_THAT(other.json["problems"].dump(),
+             Contains("gvom-fusion runs with another configuration than the file's: restart it") &&
+                 Contains("gvom-odometry runs with") && Contains("gvom-ingest-rear runs with"));
 
   CHECK(graph.ingest("front").kill_asleep() == 128 + SIGKILL);
   status = status_becomes(graph.vehicle(), 1);

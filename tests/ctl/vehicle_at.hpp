@@ -39,7 +39,9 @@ struct VehicleAt {
   }
 
   ctl::Expected expected{"two_lidars",
-                         {"gvom-odometry", "gvom-fusion", "gvom-ingest-front", "gvom-ingest-rear"}};
+                         {"gvom-odometry", "gvom-fusion", "gvom-ingest-front", "gvom-ingest-rear"},
+                         kVersion,
+                         kConfigHash};
   ctl::Broker broker{ctl::BrokerState::up, true, 3, ""};
   ctl::Observed observed;
   tools::Usage usage{1.5, 2'000'000'000, 50'000'000};

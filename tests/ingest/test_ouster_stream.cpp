@@ -110,8 +110,10 @@ TEST_CASE("a packet of the frame before is late") {
                           .play();
   REQUIRE(sweeps.size() == 2);
   CHECK_FALSE(sweeps[0].complete);
+  CHECK(sweeps[0].columns_seen_fraction == 0.75);
   CHECK(sweeps[0].returns.size() == 24);
   CHECK(sweeps[1].complete);
+  CHECK(sweeps[1].columns_seen_fraction == 1);
   CHECK(stream.counters().late_packets == 1);
   CHECK(stream.counters().incomplete_sweeps == 1);
 }

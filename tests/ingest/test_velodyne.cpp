@@ -128,8 +128,10 @@ TEST_CASE("a missing packet makes a turn incomplete") {
   const auto played = play(packets);
   REQUIRE(played.sweeps.size() == 2);
   CHECK_FALSE(played.sweeps[0].complete);
+  CHECK(played.sweeps[0].columns_seen_fraction == Approx(1 - 12 / 904.5).margin(0.002));
   CHECK(played.sweeps[0].returns.size() == Approx(904.5 - 12).margin(0.6));
   CHECK(played.sweeps[1].complete);
+  CHECK(played.sweeps[1].columns_seen_fraction == 1);
 }
 
 TEST_CASE("less than half a turn is dropped") {

@@ -78,12 +78,14 @@ TEST_CASE("a message of another version, type or size is refused by name and cou
     std::string words;
   };
   Topic newer = topic_of<Odometry>();
-  newer.version = 2;
+  ++newer.version;
+  Topic older = topic_of<Odometry>();
+  --older.version;
   Topic other = topic_of<Odometry>();
   other.type = MessageType::health;
   const Case cases[] = {
-      {newer, sizeof(Odometry), &InCounters::refused_version,
-       "odometry: message refused: version 2, this reader knows 1"},
+      {newer, sizeof(Odometry), &InCounters::refused_version, "odometry: message of a newer gvom (version "},
+      {older, sizeof(Odometry), &InCounters::refused_version, "odometry: message of "},
       {other, sizeof(Odometry), &InCounters::refused_type, "message type 5"},
       {topic_of<Odometry>(), sizeof(Odometry) + 8, &InCounters::refused_size, "bytes long, expected"}};
   for (const Case& c : cases) {

@@ -56,6 +56,8 @@ LayersWriter write_layers(LayersPublisher& publisher, float height_m) {
   set_text(header.lidars[0].name, "front");
   set_text(header.lidars[1].name, "rear");
   header.lidars[1].missing = 1;
+  header.lidars[0].newest_stamp_ns = 1;
+  header.lidars[0].columns_seen_fraction = 0.75F;
   header.mono_fused_ns = monotonic_ns() - 5'000'000;
   return layers;
 }
@@ -240,6 +242,9 @@ TEST_CASE("who joins late gets the newest layers") {
     EXPECT(layers->index_of(1.2, 3.2) == layers->at(32 + 2, 0));
     EXPECT(layers->index_of(1.2, 4.8) == layers->at(32 + 2, 3));
     EXPECT(layers->missing_lidars() == std::vector<std::string>{"rear"});
+    const auto incomplete = layers->incomplete_lidars();
+    EXPECT(incomplete.size() == 1 && incomplete[0].name == "front");
+    EXPECT(incomplete[0].columns_seen_fraction == 0.75);
     EXPECT(layers->age() > 0ns && layers->age() < kPatience);
     EXPECT(layers->stage_ages().fused > layers->age() + 4ms && layers->stage_ages().received < 0ns);
     EXPECT(client.newest_layers(50ms).error().kind == ErrorKind::timeout);
@@ -247,6 +252,26 @@ TEST_CASE("who joins late gets the newest layers") {
   });
   CHECK(planner.wait() == 0);
   CHECK(fusion.wait() == 0);
+}
+
+TEST_CASE("a planner is told of layers of another gvom, and says so where it waits for them") {
+  BrokerProcess broker;
+  REQUIRE(broker.is_up());
+  Child both([] {
+    auto client = PlannerClient::connect("planner", kPatience).value();
+    Topic former = layers_topic();
+    --former.version;
+    auto port = OutPort::open(client.runtime(), former).value();
+    EXPECT(eventually([&] { return port.has_subscribers(); }));
+    port.publish(port.loan(sizeof(Layers)).value(), sizeof(Layers), 0, 0);
+    const auto layers = client.newest_layers(50ms);
+    EXPECT(!layers && layers.error().kind == ErrorKind::timeout);
+    EXPECT(layers.error().message ==
+           "no new layers within 50 ms: layers: message of gvom 0.2 (version 1) refused, this is " +
+               std::string(release()) + " (version 2)");
+    EXPECT(client.counters().refused_version == 1);
+  });
+  CHECK(both.wait() == 0);
 }
 
 TEST_CASE("a planner takes the newest layers, knows what it missed, and sees the broker go") {

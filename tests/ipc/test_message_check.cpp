@@ -34,6 +34,38 @@ std::string refusal_of(const Spoil& spoil) {
 
 }  // namespace
 
+TEST_CASE("a message of another version is refused, and the release that it is of is named") {
+  const auto refusal_of_version = [](const Topic& topic, int version) {
+    MessageHeader header{};
+    header.magic = kMagic;
+    header.type = static_cast<std::uint16_t>(topic.type);
+    header.version = static_cast<std::uint16_t>(version);
+    header.size = sizeof header;
+    const auto refusal = check_message(topic, reinterpret_cast<std::byte*>(&header), sizeof header);
+    REQUIRE(refusal);
+    CHECK(refusal->reason == Refusal::Reason::version);
+    return refusal->why;
+  };
+  const std::string ours = std::string(") refused, this is ") + release() + " (version ";
+  CHECK(std::string(release()) == "0.3.0");
+  CHECK(refusal_of_version(layers_topic(), 1) == "message of gvom 0.2 (version 1" + ours + "2)");
+  CHECK(refusal_of_version(layers_topic(), 3) == "message of a newer gvom (version 3" + ours + "2)");
+  CHECK(refusal_of_version(*buffer_map_topic("top"), 2) == "message of gvom 0.2 (version 2" + ours + "3)");
+  CHECK(refusal_of_version(voxel_map_topic(), 1) == "message of gvom 0.1 (version 1" + ours + "3)");
+  CHECK(refusal_of_version(topic_of<Health>(), 2) == "message of gvom 0.2 (version 2" + ours + "3)");
+  for (const Topic& topic : {layers_topic(), *buffer_map_topic("top"), voxel_map_topic(), topic_of<Health>(),
+                             topic_of<Odometry>(), topic_of<Progress>()})
+    for (int version = 0; version < topic.version + 3; ++version)
+      if (version != topic.version) CHECK_FALSE(refusal_of_version(topic, version).empty());
+}
+
+TEST_CASE("fractions of a sweep's columns that cannot be are refused") {
+  for (const float fraction : {0.0F, 0.5F, 1.0F})
+    CHECK(refusal_of([&](BrickMap& map) { map.columns_seen_fraction = fraction; }).empty());
+  for (const float fraction : {-0.1F, 1.01F, static_cast<float>(kNan)})
+    CHECK_FALSE(refusal_of([&](BrickMap& map) { map.columns_seen_fraction = fraction; }).empty());
+}
+
 TEST_CASE("a map is let through, whatever its arrays hold") {
   TwoBricks map;
   CHECK(refusal_of(map).empty());

@@ -35,7 +35,7 @@ namespace {
       header.resolution_m[axis] = axis < 2 ? size.resolution_xy_m : size.resolution_z_m;
     }
     header.base_orientation_xyzw[3] = 1;
-    header.complete = 1;
+    header.columns_seen_fraction = 1;
     header.mono_received_ns = ipc::monotonic_ns();
     maps.publish(std::move(map), stamp_ns, 1);
     std::this_thread::sleep_for(200us);

@@ -43,6 +43,10 @@ std::vector<ipc::PoolUse> pools_of(const Frame& frame) {
   return pools;
 }
 
+std::string text_of(const Frame& frame) {
+  return {reinterpret_cast<const char*>(frame.payload.data()), frame.payload.size()};
+}
+
 std::string why_absent(const std::optional<std::uint32_t>& pid) {
   if (!pid) return "no broker answers: is gvom-roudi running?";
   const auto owner = ipc::broker_owner();
@@ -144,7 +148,10 @@ void BusWatch::receive(std::chrono::milliseconds timeout) {
         observed_.add(pools_of(frame));
         break;
       case FrameKind::note:
-        note_.assign(reinterpret_cast<const char*>(frame.payload.data()), frame.payload.size());
+        note_ = text_of(frame);
+        break;
+      case FrameKind::refusal:
+        observed_.add_refusal(text_of(frame));
         break;
     }
   }

@@ -15,6 +15,7 @@ enum class FrameKind : std::uint32_t {
   odometry,  ///< ipc::MessageHeader
   pools,     ///< ipc::PoolUse, one for each pool
   note,      ///< Text: what the bus complains of.
+  refusal,   ///< Text: why a message was not read.
 };
 
 struct Frame {

@@ -71,7 +71,7 @@ class Listener {
     if (const auto pools = pools_.take())
       read = send_frame(socket_, FrameKind::pools, pools->data(), pools->size() * sizeof(ipc::PoolUse));
     for (const auto& refusal : {health_.new_refusal(), layers_.new_refusal(), odometry_.new_refusal()})
-      if (refusal) read = send_frame(socket_, FrameKind::note, *refusal);
+      if (refusal) read = send_frame(socket_, FrameKind::refusal, *refusal);
     pollfd other_end{socket_, POLLIN, 0};
     return read && ::poll(&other_end, 1, 0) == 0;  // it never writes: readable is closed
   }

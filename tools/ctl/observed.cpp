@@ -38,6 +38,10 @@ void Observed::add(const ipc::MessageHeader& odometry, std::int64_t heard_mono_n
   rate_from_ns_ = heard_mono_ns;
 }
 
+void Observed::add_refusal(const std::string& why) {
+  if (std::find(refusals_.begin(), refusals_.end(), why) == refusals_.end()) refusals_.push_back(why);
+}
+
 const HeardProcess* Observed::find(const std::string& process) const {
   for (const HeardProcess& known : processes_)
     if (ipc::text_of(known.newest.process) == process) return &known;

@@ -27,6 +27,8 @@ class Observed {
   void add(const ipc::Layers& layers) { layers_ = layers; }
   void add(const ipc::MessageHeader& odometry, std::int64_t heard_mono_ns);
   void add(std::vector<ipc::PoolUse> pools) { pools_ = std::move(pools); }
+  /// Why a message was not read.
+  void add_refusal(const std::string& why);
 
   [[nodiscard]] const std::vector<HeardProcess>& processes() const { return processes_; }
   /// Null if it was never heard.
@@ -34,6 +36,7 @@ class Observed {
   [[nodiscard]] const std::optional<ipc::Layers>& layers() const { return layers_; }  ///< Their header.
   [[nodiscard]] const std::optional<HeardOdometry>& odometry() const { return odometry_; }
   [[nodiscard]] const std::vector<ipc::PoolUse>& pools() const { return pools_; }
+  [[nodiscard]] const std::vector<std::string>& refusals() const { return refusals_; }
 
  private:
   std::vector<HeardProcess> processes_;
@@ -42,6 +45,7 @@ class Observed {
   std::uint64_t rate_from_sequence_ = 0;
   std::int64_t rate_from_ns_ = 0;
   std::vector<ipc::PoolUse> pools_;
+  std::vector<std::string> refusals_;
 };
 
 }  // namespace gvom::ctl

@@ -14,6 +14,10 @@ Json or_null(const std::optional<T>& value) {
   return value ? Json(*value) : Json();
 }
 
+Json text_or_null(const std::string& text) {
+  return text.empty() ? Json() : Json(text);
+}
+
 Json json_of(const ProcessView& process) {
   Json json = {{"name", process.name},
                {"state", to_string(process.state)},
@@ -27,6 +31,10 @@ Json json_of(const ProcessView& process) {
                {"cpu_s", process.usage ? Json(process.usage->cpu_s) : Json()},
                {"backend", process.backend},
                {"backend_details", process.backend_details},
+               {"version", text_or_null(process.version)},
+               {"config_hash", text_or_null(process.config_hash)},
+               {"other_version", process.other_version},
+               {"other_config", process.other_config},
                {"drops", Json::object()},
                {"counters", Json::object()},
                {"stages", Json::object()}};
@@ -47,8 +55,11 @@ Json json_of(const LayersView& layers) {
                {"lidars", Json::object()}};
   for (const LidarView& lidar : layers.lidars) {
     if (lidar.missing) json["missing"].push_back(lidar.name);
-    json["lidars"][lidar.name] = {
-        {"missing", lidar.missing}, {"maps_in_window", lidar.maps_in_window}, {"maps_lost", lidar.maps_lost}};
+    json["lidars"][lidar.name] = {{"missing", lidar.missing},
+                                  {"unknown", lidar.unknown},
+                                  {"maps_in_window", lidar.maps_in_window},
+                                  {"maps_lost", lidar.maps_lost},
+                                  {"columns_seen_fraction", lidar.columns_seen_fraction}};
   }
   return json;
 }
@@ -69,6 +80,8 @@ const char* word_of(BrokerState state) {
 
 std::string to_json(const Snapshot& snapshot) {
   Json json = {{"vehicle", snapshot.vehicle},
+               {"version", text_or_null(snapshot.version)},
+               {"config_hash", text_or_null(snapshot.config_hash)},
                {"ok", snapshot.problems.empty()},
                {"problems", snapshot.problems},
                {"broker", word_of(snapshot.broker.state)},

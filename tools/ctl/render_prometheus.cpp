@@ -51,6 +51,12 @@ void add_state(Exposition& out, const ProcessView& process, const Labels& labels
   if (process.restarts)
     count(out, "gvom_restarts_total", "Restarts by systemd since the unit was started by hand.", labels,
           *process.restarts);
+  if (!process.version.empty()) {
+    Labels build = labels;
+    build.emplace_back("version", process.version);
+    build.emplace_back("config", process.config_hash);
+    gauge(out, "gvom_build_info", "What runs: gvom's version, and the hash of the configuration.", build, 1);
+  }
   if (process.backend.empty()) return;
   Labels backend = labels;
   backend.emplace_back("backend", process.backend);
@@ -98,6 +104,11 @@ void add_layers(Exposition& out, const LayersView& layers) {
     const Labels labels = {{"lidar", lidar.name}};
     gauge(out, "gvom_lidar_missing", "1 if the layers are without this lidar.", labels,
           lidar.missing ? 1 : 0);
+    gauge(out, "gvom_lidar_unknown",
+          "1 if the lidar publishes maps, but fusion's configuration does not have it.", labels,
+          lidar.unknown ? 1 : 0);
+    gauge(out, "gvom_lidar_columns_seen_ratio", "Of the columns of its newest sweep; 1: complete.", labels,
+          lidar.columns_seen_fraction);
     gauge(out, "gvom_lidar_maps_in_window", "Maps of this lidar that the layers are made of.", labels,
           lidar.maps_in_window);
     count(out, "gvom_lidar_maps_lost_total", "Maps of this lidar that fusion never got.", labels,

@@ -30,7 +30,13 @@ std::string drops_line(const ProcessView& process) {
   return line.empty() ? line : line + "\n";
 }
 
-std::string process_lines(const ProcessView& process) {
+/// "gvom 0.3.0, configuration 0123456789abcdef", as much of it as is known.
+std::string build_line(const char* before, const std::string& version, const std::string& config_hash) {
+  if (version.empty()) return "";
+  return before + ("gvom " + version) + (config_hash.empty() ? "" : ", configuration " + config_hash) + "\n";
+}
+
+std::string process_lines(const ProcessView& process, bool without_file) {
   std::optional<double> memory_mb;
   if (process.usage) memory_mb = static_cast<double>(process.usage->private_bytes) * 1e-6;
   std::string lines = fmt::format(
@@ -40,13 +46,16 @@ std::string process_lines(const ProcessView& process) {
   if (process.state != ProcessState::ok && !process.reason.empty()) lines += "    " + process.reason + "\n";
   if (!process.backend.empty())
     lines += fmt::format("    on {}: {}\n", process.backend, process.backend_details);
+  if (process.other_version || process.other_config || without_file)
+    lines += build_line("    runs ", process.version, process.config_hash);
   return lines + drops_line(process);
 }
 
 std::string process_table(const Snapshot& snapshot) {
   std::string table = fmt::format("{:<24}{:<10}{:>9}{:>10}{:>10}{:>10}{:>10}\n", "process", "state", "rate",
                                   "heard", "data", "restarts", "memory");
-  for (const ProcessView& process : snapshot.processes) table += process_lines(process);
+  for (const ProcessView& process : snapshot.processes)
+    table += process_lines(process, snapshot.config_hash.empty());
   return table;
 }
 
@@ -59,13 +68,19 @@ std::string data_lines(const Snapshot& snapshot) {
     lines += fmt::format("layers: {:.2f} s old, packets {:.2f} s, {} maps in the window, missing: {}\n",
                          layers->age_s, layers->packet_age_s, layers->maps_in_window,
                          missing.empty() ? "no lidar" : missing);
+    for (const LidarView& lidar : layers->lidars)
+      if (!lidar.missing && lidar.columns_seen_fraction < 1)
+        lines += fmt::format("    the newest sweep of {} has {:.1f} % of its columns\n", lidar.name,
+                             100 * lidar.columns_seen_fraction);
   } else {
     lines += "layers: none came\n";
   }
   if (snapshot.odometry)
-    return lines + fmt::format("odometry: {:.2f} s old, {}\n", snapshot.odometry->age_s,
-                               cell("{:.1f}/s", snapshot.odometry->rate_hz));
-  return lines + "odometry: none came\n";
+    lines += fmt::format("odometry: {:.2f} s old, {}\n", snapshot.odometry->age_s,
+                         cell("{:.1f}/s", snapshot.odometry->rate_hz));
+  else
+    lines += "odometry: none came\n";
+  return lines + build_line("", snapshot.version, snapshot.config_hash);
 }
 
 std::string pool_table(const std::vector<ipc::PoolUse>& pools) {

@@ -12,9 +12,10 @@ namespace {
 
 constexpr char kBroker[] = "gvom-roudi";
 constexpr char kFusion[] = "gvom-fusion";
-constexpr double kSilent_s = 3.0;       // a Health comes once a second
-constexpr double kLayersOld_s = 1.0;    // as fusion judges them itself
-constexpr double kOdometryOld_s = 2.0;  // 1 Hz is slow, but it is odometry
+constexpr double kSilent_s = 3.0;             // a Health comes once a second
+constexpr double kLayersOld_s = 1.0;          // as fusion judges them itself
+constexpr double kOdometryOld_s = 2.0;        // 1 Hz is slow, but it is odometry
+constexpr double kSweepSeen_fraction = 0.95;  // as an ingest judges its packets
 
 double seconds_since(std::int64_t then_ns, std::int64_t now_ns) {
   return std::max(0.0, static_cast<double>(now_ns - then_ns) * 1e-9);
@@ -73,6 +74,10 @@ void judge_silence(const Broker& broker, ProcessView& view) {
   }
 }
 
+std::string hash_text(std::uint64_t hash) {
+  return fmt::format("{:016x}", hash);
+}
+
 ProcessView view_of(const HeardProcess& heard, const Surroundings& surroundings, std::int64_t mono_ns) {
   const ipc::Health& health = heard.newest;
   ProcessView view;
@@ -89,6 +94,8 @@ ProcessView view_of(const HeardProcess& heard, const Surroundings& surroundings,
   view.usage = surroundings.usage(health.pid);
   view.backend = ipc::text_of(health.backend);
   view.backend_details = ipc::text_of(health.backend_details);
+  view.version = ipc::text_of(health.version);
+  view.config_hash = hash_text(health.config_hash);
   return view;
 }
 
@@ -120,8 +127,8 @@ LayersView view_of(const ipc::Layers& layers, std::int64_t mono_ns) {
   const auto count = std::min<std::uint32_t>(layers.lidar_count, ipc::kMaxLidars);
   for (std::uint32_t i = 0; i < count; ++i) {
     const ipc::LidarStatus& lidar = layers.lidars[i];
-    view.lidars.push_back(
-        {std::string(ipc::text_of(lidar.name)), lidar.missing != 0, lidar.maps_in_window, lidar.maps_lost});
+    view.lidars.push_back({std::string(ipc::text_of(lidar.name)), lidar.missing != 0, lidar.maps_in_window,
+                           lidar.maps_lost, lidar.columns_seen_fraction, lidar.unknown != 0});
   }
   return view;
 }
@@ -136,6 +143,13 @@ std::optional<double> map_age_s(const ipc::Layers& layers, const std::string& li
            seconds_since(status.newest_stamp_ns, layers.header.stamp_ns);
   }
   return std::nullopt;
+}
+
+/// Whether one that is there runs what this gvom and its file say.
+void judge_build(const Expected& expected, ProcessView& view) {
+  if (view.state == ProcessState::missing) return;
+  view.other_version = !expected.version.empty() && view.version != expected.version;
+  view.other_config = expected.config_hash && view.config_hash != hash_text(*expected.config_hash);
 }
 
 /// One that is expected and was never heard.
@@ -154,6 +168,7 @@ std::vector<ProcessView> processes_of(const Broker& broker, const Observed& obse
   const auto add_heard = [&](const HeardProcess& heard) {
     views.push_back(view_of(heard, surroundings, mono_ns));
     judge_silence(broker, views.back());
+    judge_build(expected, views.back());
   };
   const auto& known = expected.processes;
   for (const std::string& name : known) {
@@ -182,12 +197,34 @@ void complete(const Observed& observed, const Surroundings& surroundings, std::i
   if (!lidar.empty()) view.data_age_s = map_age_s(*layers, lidar, mono_ns);
 }
 
+void add_problems(const ProcessView& process, const std::string& version,
+                  std::vector<std::string>& problems) {
+  if (process.state != ProcessState::ok && process.state != ProcessState::unknown)
+    problems.push_back(fmt::format("{} is {}{}{}", process.name, to_string(process.state),
+                                   process.reason.empty() ? "" : ": ", process.reason));
+  if (process.other_version)
+    problems.push_back(
+        fmt::format("{} is of gvom {}, this is {}: restart it", process.name, process.version, version));
+  if (process.other_config)
+    problems.push_back(
+        fmt::format("{} runs with another configuration than the file's: restart it", process.name));
+}
+
+void add_problems(const LidarView& lidar, std::vector<std::string>& problems) {
+  if (lidar.unknown)
+    problems.push_back(
+        fmt::format("lidar {} is not in gvom-fusion's configuration: its maps are not taken", lidar.name));
+  else if (lidar.missing)
+    problems.push_back(fmt::format("lidar {} is missing in the layers", lidar.name));
+  else if (lidar.columns_seen_fraction < kSweepSeen_fraction)
+    problems.push_back(fmt::format("lidar {}'s newest sweep has {:.0f} % of its columns", lidar.name,
+                                   100 * lidar.columns_seen_fraction));
+}
+
 std::vector<std::string> problems_of(const Snapshot& snapshot) {
   std::vector<std::string> problems;
-  for (const ProcessView& process : snapshot.processes)
-    if (process.state != ProcessState::ok && process.state != ProcessState::unknown)
-      problems.push_back(fmt::format("{} is {}{}{}", process.name, to_string(process.state),
-                                     process.reason.empty() ? "" : ": ", process.reason));
+  for (const ProcessView& process : snapshot.processes) add_problems(process, snapshot.version, problems);
+  for (const std::string& refusal : snapshot.refusals) problems.push_back(refusal);
   if (snapshot.broker.state != BrokerState::up) return problems;
   if (!snapshot.broker.joined) {
     problems.push_back("the bus cannot be joined" +
@@ -199,8 +236,7 @@ std::vector<std::string> problems_of(const Snapshot& snapshot) {
   else if (snapshot.layers->age_s > kLayersOld_s)
     problems.push_back(fmt::format("the newest layers are {:.1f} s old", snapshot.layers->age_s));
   if (snapshot.layers)
-    for (const LidarView& lidar : snapshot.layers->lidars)
-      if (lidar.missing) problems.push_back(fmt::format("lidar {} is missing in the layers", lidar.name));
+    for (const LidarView& lidar : snapshot.layers->lidars) add_problems(lidar, problems);
   if (!snapshot.odometry)
     problems.emplace_back("no odometry came");
   else if (snapshot.odometry->age_s > kOdometryOld_s)
@@ -224,6 +260,8 @@ Snapshot assess(const Broker& broker, const Observed& observed, const Expected& 
                 const Surroundings& surroundings, std::int64_t mono_ns) {
   Snapshot snapshot;
   snapshot.vehicle = expected.vehicle;
+  snapshot.version = expected.version;
+  if (expected.config_hash) snapshot.config_hash = hash_text(*expected.config_hash);
   snapshot.broker = broker;
   snapshot.processes = processes_of(broker, observed, expected, surroundings, mono_ns);
   for (ProcessView& process : snapshot.processes) complete(observed, surroundings, mono_ns, process);
@@ -232,6 +270,7 @@ Snapshot assess(const Broker& broker, const Observed& observed, const Expected& 
     snapshot.odometry =
         OdometryView{seconds_since(observed.odometry()->mono_ns, mono_ns), observed.odometry()->rate_hz};
   snapshot.pools = observed.pools();
+  snapshot.refusals = observed.refusals();
   snapshot.problems = problems_of(snapshot);
   return snapshot;
 }

@@ -25,8 +25,10 @@ struct Broker {
 
 /// Which processes the vehicle's file asks for.
 struct Expected {
-  std::string vehicle;                 ///< Empty: no file was given, nothing is missed.
-  std::vector<std::string> processes;  ///< Runtime names, in the order in which they are shown.
+  std::string vehicle;                       ///< Empty: no file was given, nothing is missed.
+  std::vector<std::string> processes;        ///< Runtime names, in the order in which they are shown.
+  std::string version;                       ///< Of this gvom; empty: not compared.
+  std::optional<std::uint64_t> config_hash;  ///< Of the file, as ipc::Health has it.
 };
 
 /// What is known of processes but from the bus.
@@ -61,6 +63,10 @@ struct ProcessView {
   std::optional<tools::Usage> usage;
   std::string backend;
   std::string backend_details;
+  std::string version;         ///< Of gvom; empty: not known.
+  std::string config_hash;     ///< 16 hexadecimal digits; empty: not known.
+  bool other_version = false;  ///< Than this gvom's.
+  bool other_config = false;   ///< Than the file's.
 };
 
 struct LidarView {
@@ -68,6 +74,8 @@ struct LidarView {
   bool missing;
   std::uint32_t maps_in_window;
   std::uint64_t maps_lost;
+  double columns_seen_fraction;  ///< Of its newest sweep; 1: complete. 0: none came.
+  bool unknown;                  ///< It publishes maps, but fusion's configuration does not have it.
 };
 
 struct LayersView {
@@ -84,11 +92,14 @@ struct OdometryView {
 
 struct Snapshot {
   std::string vehicle;
+  std::string version;      ///< Of this gvom.
+  std::string config_hash;  ///< Of the file, 16 hexadecimal digits; empty without one.
   Broker broker;
   std::vector<ProcessView> processes;  ///< The broker first.
   std::optional<LayersView> layers;
   std::optional<OdometryView> odometry;
   std::vector<ipc::PoolUse> pools;
+  std::vector<std::string> refusals;  ///< Why messages were not read, each reason once.
   std::vector<std::string> problems;  ///< Everything that is not as it should be; empty: all is well.
 };
 

@@ -2,10 +2,12 @@
 
 #include <unistd.h>
 
+#include "ipc/topic.hpp"
+
 namespace gvom::ctl {
 
 Expected expected_of(const services::VehicleConfig& config) {
-  Expected expected{config.name, {}};
+  Expected expected{config.name, {}, ipc::release(), services::config_hash(config)};
   if (!config.odometry.source.empty()) expected.processes.emplace_back("gvom-odometry");
   expected.processes.emplace_back("gvom-fusion");
   for (const services::LidarConfig& lidar : config.lidars)
@@ -15,7 +17,8 @@ Expected expected_of(const services::VehicleConfig& config) {
 
 tl::expected<Expected, services::ConfigError> expected_of(const std::string& path,
                                                           const std::vector<std::string>& sets) {
-  if (path.empty() && ::access(kInstalledVehicle, F_OK) != 0) return Expected{};
+  if (path.empty() && ::access(kInstalledVehicle, F_OK) != 0)
+    return Expected{"", {}, ipc::release(), std::nullopt};
   return services::load_vehicle_config(path.empty() ? kInstalledVehicle : path, sets)
       .map([](const services::VehicleConfig& config) { return expected_of(config); });
 }
