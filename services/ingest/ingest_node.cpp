@@ -89,7 +89,9 @@ ExitCode IngestNode::run() {
   services::notify_stopping();
   health_.set_state(failure_ ? ipc::HealthState::failed : ipc::HealthState::stopping, failure_.value_or(""));
   send_health(ipc::monotonic_ns());
-  spdlog::info("{} of {} sweeps mapped", counters_.sweeps_mapped, counters_.sweeps_in);
+  spdlog::info("{} of {} sweeps mapped", counters_.mapped_sweeps, counters_.sweeps);
+  if (const std::string dropped = counters_.dropped(); !dropped.empty())
+    spdlog::info("not used: {}", dropped);
   broker_.leave_if_gone();
   return code;
 }
@@ -125,7 +127,7 @@ bool IngestNode::give_up_late_sweep(std::int64_t stamp_ns) {
   Sweep* const sweep = reader_.take();
   if (sweep == nullptr) return true;
   reader_.give_back(sweep);
-  ++(late ? counters_.drop_odometry_timeout : counters_.drop_after_odometry);
+  ++(late ? counters_.odometry_timeouts : counters_.after_odometry);
   if (late)
     log_drops_(spdlog::level::warn, "no odometry for a sweep within {} s: dropped",
                static_cast<double>(odometry_timeout_ns_) * 1e-9);
@@ -137,13 +139,13 @@ void IngestNode::map_sweep(const Sweep& sweep) {
   const auto shape = mapper_.count(sweep, odometry_);
   if (!shape && shape.error().reason == SweepError::Reason::device) return fail(shape.error().what);
   if (!shape) {
-    ++(odometry_broken_ ? counters_.drop_odometry_gap : counters_.drop_before_odometry);
+    ++(odometry_broken_ ? counters_.in_odometry_gap : counters_.before_odometry);
     log_drops_(spdlog::level::info, "a sweep began before the odometry{}: dropped",
                odometry_broken_ ? " went on" : "");
     return;
   }
   if (!publish(sweep, *shape, begin_ns)) return;
-  ++counters_.sweeps_mapped;
+  ++counters_.mapped_sweeps;
   counters_.add(mapper_.filter_counts());
   health_.count_product();
   last_map_ns_ = ipc::monotonic_ns();
@@ -152,7 +154,7 @@ void IngestNode::map_sweep(const Sweep& sweep) {
 }
 
 void IngestNode::fail(const std::string& what) {
-  ++counters_.drop_backend_failed;
+  ++counters_.backend_failures;
   failure_ = what;
   spdlog::critical("{}: leaving, to be started again", what);
 }
@@ -160,7 +162,7 @@ void IngestNode::fail(const std::string& what) {
 bool IngestNode::publish(const Sweep& sweep, const BrickMapShape& shape, std::int64_t begin_ns) {
   auto writer = bus_.maps.loan(shape.brick_slots, shape.brick_count, shape.record_count);
   if (!writer) {
-    ++counters_.drop_no_chunk;
+    ++counters_.without_chunk;
     log_drops_(spdlog::level::err, "a map is lost: {}", writer.error().message);
     return false;
   }
@@ -249,13 +251,16 @@ std::uint64_t IngestNode::judge(std::int64_t now_ns) {
 }
 
 void IngestNode::send_health(std::int64_t now_ns) {
-  counters_.copy(reader_.counters(), reader_.overruns(), bus_.odometry.counters().lost);
+  counters_.take(reader_.counters());
+  counters_.overruns = reader_.overruns();
+  counters_.lost_poses = bus_.odometry.counters().lost;
+  counters_.report();
   const ipc::Health& health = health_.take(now_ns);
   char status[128];
   std::snprintf(status, sizeof status, "%.1f maps/s, %s, %llu of %llu sweeps mapped", health.rate_hz,
                 services::age_text(last_map_ns_, health.mono_ns).data(),
-                static_cast<unsigned long long>(counters_.sweeps_mapped),
-                static_cast<unsigned long long>(counters_.sweeps_in));
+                static_cast<unsigned long long>(counters_.mapped_sweeps),
+                static_cast<unsigned long long>(counters_.sweeps));
   services::notify_status(status);
   if (!bus_.health.publish(health, odometry_.empty() ? 0 : odometry_.newest_ns(), epoch_))
     log_drops_(spdlog::level::warn, "a health message is lost");

@@ -16,7 +16,7 @@ void IngestNode::take_odometry() {
     lossless_ = (odometry.flags & ipc::Odometry::kLossless) != 0;
     end_of_stream_ = (odometry.flags & ipc::Odometry::kEndOfStream) != 0;
     odometry_came_ns_ = ipc::monotonic_ns();
-    ++counters_.odometry_in;
+    ++counters_.poses;
     if (end_of_stream_) break;  // its pose is the last one again
     take_pose({odometry.header.stamp_ns, services::pose_of(odometry.position_m, odometry.orientation_xyzw)});
   }
@@ -34,11 +34,11 @@ void IngestNode::take_pose(const StampedPose& pose) {
       reader_.set_time_hint(pose.stamp_ns);
       break;
     case OdometryBuffer::Add::not_finite:
-      ++counters_.drop_odometry_not_finite;
+      ++counters_.not_finite_poses;
       log_drops_(spdlog::level::warn, "odometry {}: not a pose, not used", odometry_sequence_);
       break;
     case OdometryBuffer::Add::not_newer:
-      ++counters_.drop_odometry_not_newer;
+      ++counters_.not_newer_poses;
       log_drops_(spdlog::level::warn, "odometry {}: its time goes back, not used", odometry_sequence_);
       break;
   }

@@ -21,8 +21,9 @@ ExitCode run(const services::VehicleConfig& config, const services::LidarConfig&
   auto source = ingest::open_source(lidar.source,
                                     {lidar.min_sweep_fraction, static_cast<std::size_t>(lidar.max_returns)});
   if (!source) {
-    spdlog::error("{}", source.error());
-    return ExitCode::bad_data;
+    spdlog::error("{}", source.error().what);
+    return source.error().kind == ingest::SourceError::Kind::unavailable ? ExitCode::unavailable
+                                                                         : ExitCode::bad_data;
   }
   for (const std::string& warning : (*source)->warnings()) spdlog::warn("{}", warning);
   auto runtime = services::join_bus("gvom-ingest-" + lidar.name, lifecycle);

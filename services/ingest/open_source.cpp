@@ -12,9 +12,9 @@
 namespace gvom::ingest {
 namespace {
 
-using SourceResult = tl::expected<std::unique_ptr<Source>, std::string>;
+using SourceResult = tl::expected<std::unique_ptr<Source>, SourceError>;
 using DecoderResult = tl::expected<std::unique_ptr<Decoder>, std::string>;
-using PacketsResult = tl::expected<std::unique_ptr<PacketSource>, std::string>;
+using PacketsResult = tl::expected<std::unique_ptr<PacketSource>, SourceError>;
 
 DecoderResult make_decoder(const SourceUri& uri, const SourceOptions& options, SourceState& state) {
   const bool ouster = uri.scheme.compare(0, 6, "ouster") == 0;
@@ -91,7 +91,7 @@ SourceResult open_packets(const SourceUri& uri, const SourceOptions& options, bo
 
 }  // namespace
 
-tl::expected<std::unique_ptr<Source>, std::string> open_source(const std::string& text,
+tl::expected<std::unique_ptr<Source>, SourceError> open_source(const std::string& text,
                                                                const SourceOptions& options) {
   const auto uri = parse_source_uri(text);
   if (!uri) return tl::unexpected(uri.error());

@@ -21,8 +21,9 @@ using Address = std::array<std::uint8_t, 16>;
 struct Packet {
   const std::uint8_t* data = nullptr;
   std::size_t size = 0;
-  std::int64_t capture_ns = 0;   ///< Capture time of a recording (Unix time); 0 live.
-  std::int64_t received_ns = 0;  ///< CLOCK_MONOTONIC; 0 in a recording.
+  /// When the kernel had it, live or in the recording's capture: Unix time, of a clock that may be set.
+  std::int64_t capture_ns = 0;
+  std::int64_t received_ns = 0;  ///< The same on CLOCK_MONOTONIC; 0 in a recording.
   Address source{};              ///< The sender.
   std::uint16_t port = 0;        ///< The destination port.
 };

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <tl/expected.hpp>
@@ -52,6 +53,18 @@ struct SourceOptions {
   std::size_t max_returns = 262144;
 };
 
+/// Why a source does not open.
+struct SourceError {
+  enum class Kind {
+    bad_data,     ///< What was asked for is wrong, or the recording is: only a person helps.
+    unavailable,  ///< It may be there later: a port that is taken, an address that is not up yet.
+  };
+  std::string what;  ///< Which file or port, and why.
+  Kind kind = Kind::bad_data;
+
+  SourceError(std::string text, Kind why = Kind::bad_data) : what(std::move(text)), kind(why) {}
+};
+
 class Source {
  public:
   virtual ~Source() = default;
@@ -82,8 +95,7 @@ class Source {
 
 /// Opens `ouster:FILE.pcap?meta=FILE.json`, `ouster-udp:PORT?meta=FILE.json`, `velodyne:FILE.pcap?model=M`,
 /// `velodyne-udp:PORT?model=M` (M: VLP-16, VLP-32C, HDL-32) or `scans:PATH`.
-/// Errors say which file and why.
-tl::expected<std::unique_ptr<Source>, std::string> open_source(const std::string& uri,
+tl::expected<std::unique_ptr<Source>, SourceError> open_source(const std::string& uri,
                                                                const SourceOptions& options);
 
 }  // namespace gvom::ingest

@@ -30,26 +30,41 @@ void enlarge_buffer(int socket, std::uint16_t port, SourceState& state) {
                            std::to_string(kWantedBuffer));
 }
 
-std::uint32_t dropped_by_kernel(msghdr& message, std::uint32_t before) {
+/// What the kernel says beside a packet.
+struct Beside {
+  std::uint32_t drops;          // before it, since the socket was opened
+  std::int64_t arrived_ns = 0;  // Unix time
+};
+
+Beside read_beside(msghdr& message, std::uint32_t drops_before) {
+  Beside beside{drops_before};
   for (cmsghdr* c = CMSG_FIRSTHDR(&message); c != nullptr; c = CMSG_NXTHDR(&message, c)) {
-    if (c->cmsg_level != SOL_SOCKET || c->cmsg_type != SO_RXQ_OVFL) continue;
-    std::uint32_t count = 0;
-    std::memcpy(&count, CMSG_DATA(c), sizeof count);
-    return count;
+    if (c->cmsg_level != SOL_SOCKET) continue;
+    if (c->cmsg_type == SO_RXQ_OVFL) std::memcpy(&beside.drops, CMSG_DATA(c), sizeof beside.drops);
+    if (c->cmsg_type != SO_TIMESTAMPNS) continue;
+    timespec time{};
+    std::memcpy(&time, CMSG_DATA(c), sizeof time);
+    beside.arrived_ns = to_ns(time);
   }
-  return before;
+  return beside;
+}
+
+/// Why a port cannot be had. What another process or a network has not yet made ready may be there later.
+SourceError bind_error(const std::string& what) {
+  const auto kind = errno == EACCES ? SourceError::Kind::bad_data : SourceError::Kind::unavailable;
+  return {what + ": " + std::strerror(errno), kind};
 }
 
 }  // namespace
 
 UdpReceiver::UdpReceiver(int socket, std::uint16_t port, SourceState& state)
-    : socket_(socket), port_(port), state_(state), buffer_(kMaxDatagram) {}
+    : socket_(socket), port_(port), state_(state), buffer_(kMaxDatagram), not_before_ns_(monotonic_ns()) {}
 
 UdpReceiver::~UdpReceiver() {
   ::close(socket_);
 }
 
-tl::expected<std::unique_ptr<UdpReceiver>, std::string> UdpReceiver::open(std::uint16_t port,
+tl::expected<std::unique_ptr<UdpReceiver>, SourceError> UdpReceiver::open(std::uint16_t port,
                                                                           const std::string& bind_address,
                                                                           SourceState& state) {
   sockaddr_in local{};
@@ -59,14 +74,15 @@ tl::expected<std::unique_ptr<UdpReceiver>, std::string> UdpReceiver::open(std::u
     return tl::unexpected("bind: '" + bind_address + "' is not an IPv4 address");
   }
   const int socket = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-  if (socket < 0) return tl::unexpected(std::string("UDP socket: ") + std::strerror(errno));
+  if (socket < 0) return tl::unexpected(bind_error("UDP socket"));
   std::unique_ptr<UdpReceiver> receiver(new UdpReceiver(socket, port, state));
   enlarge_buffer(socket, port, state);
   const int on = 1;
   ::setsockopt(socket, SOL_SOCKET, SO_RXQ_OVFL, &on, sizeof on);
+  ::setsockopt(socket, SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on);
   if (::bind(socket, reinterpret_cast<const sockaddr*>(&local), sizeof local) != 0) {
-    return tl::unexpected("UDP port " + std::to_string(port) +
-                          (bind_address.empty() ? "" : " on " + bind_address) + ": " + std::strerror(errno));
+    return tl::unexpected(
+        bind_error("UDP port " + std::to_string(port) + (bind_address.empty() ? "" : " on " + bind_address)));
   }
   return receiver;
 }
@@ -82,7 +98,7 @@ tl::expected<PacketEvent, std::string> UdpReceiver::next(Packet& out, std::chron
 tl::expected<PacketEvent, std::string> UdpReceiver::receive(Packet& out) {
   sockaddr_in sender{};
   iovec space{buffer_.data(), buffer_.size()};
-  alignas(cmsghdr) char control[64];
+  alignas(cmsghdr) char control[128];
   msghdr message{};
   message.msg_name = &sender;
   message.msg_namelen = sizeof sender;
@@ -90,22 +106,34 @@ tl::expected<PacketEvent, std::string> UdpReceiver::receive(Packet& out) {
   message.msg_iovlen = 1;
   message.msg_control = control;
   message.msg_controllen = sizeof control;
+  const std::int64_t asked_ns = monotonic_ns();
   const ssize_t size = ::recvmsg(socket_, &message, MSG_DONTWAIT);
   if (size < 0) {
     const bool nothing = errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR || errno == ECONNREFUSED;
+    if (errno == EAGAIN || errno == EWOULDBLOCK) not_before_ns_ = asked_ns;
     if (nothing) return PacketEvent::idle;
     return tl::unexpected("UDP port " + std::to_string(port_) + ": " + std::strerror(errno));
   }
-  const std::uint32_t drops = dropped_by_kernel(message, kernel_drops_);
-  state_.counters.kernel_drops += drops - kernel_drops_;
-  kernel_drops_ = drops;
+  const Beside beside = read_beside(message, kernel_drops_);
+  state_.counters.kernel_drops += beside.drops - kernel_drops_;
+  kernel_drops_ = beside.drops;
   out = Packet{};
   out.data = buffer_.data();
   out.size = static_cast<std::size_t>(size);
-  out.received_ns = monotonic_ns();
+  out.capture_ns = beside.arrived_ns;
+  out.received_ns = received_at(beside.arrived_ns);
   std::memcpy(out.source.data(), &sender.sin_addr, sizeof sender.sin_addr);
   out.port = port_;
   return PacketEvent::packet;
+}
+
+/// The wall clock may have been set while the packet waited: it came after the one before it, after the queue
+/// was last empty, and not later than now.
+std::int64_t UdpReceiver::received_at(std::int64_t arrived_ns) {
+  const std::int64_t now_ns = monotonic_ns();
+  const std::int64_t waited_ns = arrived_ns == 0 ? 0 : wall_ns() - arrived_ns;
+  not_before_ns_ = std::clamp(now_ns - waited_ns, not_before_ns_, now_ns);
+  return not_before_ns_;
 }
 
 tl::expected<void, std::string> UdpReceiver::rewind() {

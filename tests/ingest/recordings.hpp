@@ -15,7 +15,7 @@ namespace gvom::test {
 /// A source that must open.
 inline std::unique_ptr<ingest::Source> open(const std::string& uri, ingest::SourceOptions options = {}) {
   auto source = ingest::open_source(uri, options);
-  INFO(uri << ": " << (source ? "" : source.error()));
+  INFO(uri << ": " << (source ? "" : source.error().what));
   REQUIRE(source.has_value());
   return std::move(*source);
 }
@@ -38,7 +38,7 @@ inline std::vector<Sweep> all_sweeps(ingest::Source& source) {
 inline std::string open_error(const std::string& uri) {
   const auto source = ingest::open_source(uri, {});
   REQUIRE_FALSE(source.has_value());
-  return source.error();
+  return source.error().what;
 }
 
 }  // namespace gvom::test

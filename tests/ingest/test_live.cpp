@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include "services/ingest/monotonic.hpp"
+#include "services/ingest/udp_receiver.hpp"
 #include "tests/ingest/ouster_builder.hpp"
 #include "tests/ingest/recordings.hpp"
 #include "tests/tools/temporary_folder.hpp"
@@ -68,8 +69,8 @@ TEST_CASE("a live source is idle, then gives the sweep, with the moment at which
 
   const Socket sensor;
   for (int column = 0; column < 12; column += 4) sensor.send(port, plain_packet({}, 1, column));
-  CHECK(source->next(sweep, std::chrono::milliseconds(20)).value() == SourceEvent::kIdle);
   const std::int64_t before_ns = ingest::monotonic_ns();
+  CHECK(source->next(sweep, std::chrono::milliseconds(20)).value() == SourceEvent::kIdle);
   sensor.send(port, ByteVector(10));
   sensor.send(port, plain_packet({}, 1, 12));
   REQUIRE(source->next(sweep, kWait).value() == SourceEvent::kSweep);
@@ -81,12 +82,54 @@ TEST_CASE("a live source is idle, then gives the sweep, with the moment at which
   CHECK(source->counters().foreign_packets == 1);
 }
 
-TEST_CASE("a port that is taken is an error that names it") {
+TEST_CASE("a sweep's age counts what its packets waited in the socket's queue") {
+  TemporaryFolder folder;
+  const std::string meta = write_text(folder.path() + "/meta.json", OusterSensor{}.json());
+  const std::uint16_t port = free_port();
+  auto source = open("ouster-udp:" + std::to_string(port) + "?bind=127.0.0.1&meta=" + meta);
+  const Socket sensor;
+  Sweep sweep;
+  std::int64_t last_ns = 0;
+  for (int frame = 1; frame <= 3; ++frame) {
+    CHECK(source->next(sweep, std::chrono::milliseconds(0)).value() == SourceEvent::kIdle);
+    for (int column = 0; column < 16; column += 4) sensor.send(port, plain_packet({}, frame, column));
+    const std::int64_t sent_ns = ingest::monotonic_ns();  // on the loopback the kernel has them now
+    REQUIRE(source->next(sweep, kWait).value() == SourceEvent::kSweep);
+    CHECK(sweep.received_ns <= sent_ns);
+    CHECK(sweep.received_ns >= last_ns);
+    last_ns = sent_ns;
+  }
+}
+
+TEST_CASE("a live packet has the kernel's time, on both clocks") {
+  ingest::SourceState state;
+  const std::uint16_t port = free_port();
+  const auto receiver = ingest::UdpReceiver::open(port, "127.0.0.1", state).value();
+  const Socket sensor;
+  const std::int64_t before_ns = ingest::wall_ns();
+  sensor.send(port, {1, 2, 3});
+  const std::int64_t after_ns = ingest::wall_ns();
+  ingest::Packet packet;
+  REQUIRE(receiver->next(packet, kWait).value() == ingest::PacketEvent::packet);
+  CHECK(packet.capture_ns >= before_ns);
+  CHECK(packet.capture_ns <= after_ns);
+}
+
+TEST_CASE("a port that is taken and an address that is not up are errors that name them, to be tried again") {
   TemporaryFolder folder;
   const std::string meta = write_text(folder.path() + "/meta.json", OusterSensor{}.json());
   const Socket other;
-  const std::string uri = "ouster-udp:" + std::to_string(other.port()) + "?bind=127.0.0.1&meta=" + meta;
-  CHECK(open_error(uri).find("UDP port " + std::to_string(other.port()) + " on 127.0.0.1: ") == 0);
+  const std::string uri = "ouster-udp:" + std::to_string(other.port()) + "?meta=" + meta + "&bind=";
+  const auto taken = ingest::open_source(uri + "127.0.0.1", {});
+  REQUIRE_FALSE(taken.has_value());
+  CHECK(taken.error().what.find("UDP port " + std::to_string(other.port()) + " on 127.0.0.1: ") == 0);
+  CHECK(taken.error().kind == ingest::SourceError::Kind::unavailable);
+  const auto down = ingest::open_source(uri + "192.0.2.1", {});  // TEST-NET-1: nobody's
+  REQUIRE_FALSE(down.has_value());
+  CHECK(down.error().kind == ingest::SourceError::Kind::unavailable);
+  const auto wrong = ingest::open_source(uri + "my-lidar", {});
+  REQUIRE_FALSE(wrong.has_value());
+  CHECK(wrong.error().kind == ingest::SourceError::Kind::bad_data);
 }
 
 TEST_CASE("packets that the kernel had no room for are counted") {

@@ -1,6 +1,10 @@
 // Bad input: said clearly, with the right exit code, and never at the cost of what was good.
 #include <catch2/catch.hpp>
 
+#include <arpa/inet.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
 #include <filesystem>
 #include <fstream>
 
@@ -162,6 +166,21 @@ TEST_CASE("a lidar that the vehicle does not have, and command lines that say no
                 {"--no-such-option"});
   const Vehicle live = drive.with("lidars.front.source=ouster-udp:17502?meta=front.json");
   check_refused("gvom-map", live.arguments({"--out", "m"}), drive.folder(), kBadData, {"live"});
+}
+
+TEST_CASE("a port that another process has is not there yet: to be tried again") {
+  const Drive drive;
+  const int other = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  socklen_t size = sizeof address;
+  REQUIRE(::bind(other, reinterpret_cast<const sockaddr*>(&address), size) == 0);
+  REQUIRE(::getsockname(other, reinterpret_cast<sockaddr*>(&address), &size) == 0);
+  const std::string port = std::to_string(ntohs(address.sin_port));
+  const Vehicle live = drive.with("lidars.front.source=ouster-udp:" + port + "?meta=front.json");
+  check_refused("gvom-ingest", live.arguments({"--lidar", "front"}), drive.folder(), kUnavailable,
+                {"UDP port " + port, "in use"});
+  ::close(other);
 }
 
 TEST_CASE("folders that cannot be written") {

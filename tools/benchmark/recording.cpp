@@ -10,7 +10,7 @@ namespace {
 
 tl::expected<std::vector<Sweep>, std::string> read_sweeps(const std::string& folder) {
   const auto source = ingest::open_source("scans:" + folder, {});
-  if (!source) return tl::unexpected(source.error());
+  if (!source) return tl::unexpected(source.error().what);
   std::vector<Sweep> sweeps;
   for (;;) {
     Sweep sweep;

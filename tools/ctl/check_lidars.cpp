@@ -58,7 +58,7 @@ Finding check_source(const LidarConfig& lidar, Opened& opened) {
                                     {lidar.min_sweep_fraction, static_cast<std::size_t>(lidar.max_returns)});
   if (!source) {
     if (auto taken = judge_owner(lidar, what)) return *taken;
-    return {Level::error, what, source.error()};
+    return {Level::error, what, source.error().what};
   }
   std::string warnings;
   for (const std::string& warning : (*source)->warnings()) warnings += "; " + warning;

@@ -67,7 +67,7 @@ OfflineExpected<void> OfflineMapper::add_lidar(const services::VehicleConfig& co
                                                const services::LidarConfig& lidar) {
   const auto max_returns = static_cast<std::size_t>(lidar.max_returns);
   auto source = ingest::open_source(lidar.source, {lidar.min_sweep_fraction, max_returns});
-  if (!source) return bad_data("lidar " + lidar.name + ": " + source.error());
+  if (!source) return bad_data("lidar " + lidar.name + ": " + source.error().what);
   if ((*source)->is_live()) return bad_data("lidar " + lidar.name + ": " + lidar.source + " is live");
   auto opened = open_voxelizer(lidar.backend,
                                {config.mapper.map, lidar.geometry, config.mapper.vehicle, max_returns, {}});
