@@ -105,7 +105,8 @@ const std::vector<VehicleRow>& vehicle_rows() {
        [](V& c) -> Field { return &c.ipc.max_planners; }},
 
       {{"odometry.source", "", Rule::text, 0, 0, kOptional,
-        "tum:FILE, relative to the working directory; empty: by the command line"},
+        "tum:FILE, euroc:FILE or kitti:FILE?times=FILE, relative to the working directory; empty: by the "
+        "command line"},
        [](V& c) -> Field { return &c.odometry.source; }},
       {{"odometry.timeout_s", "s", Rule::range, 0.01, 60, kOptional,
         "a sweep waits this long for the odometry that brackets it (R3)"},

@@ -33,7 +33,7 @@ struct LidarConfig {
 
 /// `odometry.*`.
 struct OdometryConfig {
-  std::string source;      ///< `tum:FILE`; may be empty (given on the command line).
+  std::string source;      ///< See read_odometry_source; may be empty (given on the command line).
   double timeout_s = 1.0;  ///< A sweep waits this long for the odometry that brackets it (R3), 0.01 .. 60.
   // The next two hold for live sensors. A recording is mapped by the odometry that it has (R3), however
   // sparse: gvom-map and a replay at any rate give the same map.

@@ -4,7 +4,7 @@
 #include "services/common/bus/join.hpp"
 #include "services/common/cli.hpp"
 #include "services/common/log.hpp"
-#include "services/common/tum.hpp"
+#include "services/common/odometry_file.hpp"
 #include "services/odometry/rate.hpp"
 #include "services/odometry/replay.hpp"
 
@@ -23,7 +23,9 @@ struct Options {
 };
 
 void add_options(CLI::App& app, Options& options) {
-  app.add_option("--source", options.source, "instead of odometry.source")->type_name("tum:FILE");
+  app.add_option("--source", options.source,
+                 "instead of odometry.source: tum:FILE, euroc:FILE or kitti:FILE?times=FILE")
+      ->type_name("URI");
   app.add_option("--rate", options.rate,
                  "times the recorded pace, or max: as fast as the slowest reader takes it, losing nothing")
       ->type_name("N|max")
@@ -74,14 +76,16 @@ int main(int argc, char** argv) {
   services::init_logging(kName);
   const std::string& source = options.source.empty() ? config->odometry.source : options.source;
   if (source.empty()) {
-    spdlog::error("{}: odometry.source is empty: give one there or with --source tum:FILE", config->path);
+    spdlog::error("{}: odometry.source is empty: give one there or with --source URI", config->path);
     return to_int(ExitCode::configuration);
   }
-  const auto poses = services::read_odometry_source(source);
+  std::vector<std::string> warnings;
+  const auto poses = services::read_odometry_source(source, warnings);
   if (!poses) {
     spdlog::error("{}", poses.error());
     return to_int(ExitCode::bad_data);
   }
+  for (const std::string& warning : warnings) spdlog::warn("{}", warning);
   std::vector<std::string> lidars;
   for (const services::LidarConfig& lidar : config->lidars) lidars.push_back(lidar.name);
   return to_int(replay(*poses, lidars, replay_options(options, *config), lifecycle));

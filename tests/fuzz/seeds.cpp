@@ -139,6 +139,12 @@ void add_clouds(Seeds& seeds) {
 
 void add_texts(Seeds& seeds) {
   seeds.add("tum", std::string("# t x y z qx qy qz qw\n1.5 1 2 3 0 0 0.6 0.8\n\n2.25e0 4 5 6 0 0 0 -1\r\n"));
+  seeds.add(
+      "tum",
+      std::string("\xEF\xBB\xBF#timestamp, p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], "
+                  "q_RS_y [], q_RS_z []\n1403715524907143168,1,2,3,1,0,0,0,9\n"));
+  seeds.add("tum", std::string("1 0 0 5 0 1 0 6 0 0 1 7\n0 -1 0 8 1 0 0 9 0 0 1 1e1\n"));
+  seeds.add("tum", std::string("2011-09-26 13:02:25.594360375\n2011-09-26T13:02:26Z\n"));
   seeds.add("tum", std::string("1311868163.869999886 -1e-3 +2 .5 1 0 0 0\n"));
   for (const char* uri :
        {"ouster:a.pcap?meta=b.json&port=7502", "velodyne-udp:2368?model=VLP-16&bind=10.0.0.1", "scans:folder",

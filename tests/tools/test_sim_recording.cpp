@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "services/common/tum.hpp"
+#include "services/common/odometry_file.hpp"
 #include "services/ingest/source.hpp"
 #include "tests/tools/temporary_folder.hpp"
 #include "tools/sim/simulate.hpp"
@@ -103,8 +103,10 @@ TEST_CASE("odometry covers every column and follows the drive") {
   const TemporaryFolder folder;
   const RecordingOptions options = short_drive();
   REQUIRE(simulate(two_lidars(), options, folder.path()));
-  const auto poses = gvom::services::read_tum(folder.path() + "/odometry.tum");
+  std::vector<std::string> warnings;
+  const auto poses = gvom::services::read_odometry_source("tum:" + folder.path() + "/odometry.tum", warnings);
   REQUIRE(poses);
+  CHECK(warnings.empty());
   const std::vector<LidarModel> lidars = make_lidars(two_lidars(), options);
   CHECK(poses->front().stamp_ns < lidars[0].stamp_ns(0, 0));
   CHECK(poses->back().stamp_ns > lidars[1].stamp_ns(1, kColumns - 1));

@@ -1,7 +1,9 @@
 #include "tools/benchmark/recording.hpp"
 
+#include <cstdio>
+
 #include "core/odometry_buffer.hpp"
-#include "services/common/tum.hpp"
+#include "services/common/odometry_file.hpp"
 #include "services/ingest/source.hpp"
 
 namespace gvom::bench {
@@ -27,8 +29,10 @@ tl::expected<Recording, std::string> read_recording(const std::string& folder, c
                                                     double sensor_height_m) {
   auto sweeps = read_sweeps(folder);
   if (!sweeps) return tl::unexpected(sweeps.error());
-  const auto poses = services::read_tum(odometry);
+  std::vector<std::string> warnings;
+  const auto poses = services::read_odometry_source("tum:" + odometry, warnings);
   if (!poses) return tl::unexpected(poses.error());
+  for (const std::string& warning : warnings) std::fprintf(stderr, "%s\n", warning.c_str());
   OdometryBuffer buffer(poses->size());
   for (const StampedPose& pose : *poses) buffer.add(pose);
 

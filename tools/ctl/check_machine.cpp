@@ -5,7 +5,7 @@
 #include "ipc/broker.hpp"
 #include "services/common/backend_word.hpp"
 #include "services/common/bus/pool_spec.hpp"
-#include "services/common/tum.hpp"
+#include "services/common/odometry_file.hpp"
 #include "tools/ctl/check.hpp"
 
 namespace gvom::ctl {
@@ -16,9 +16,12 @@ Finding check_odometry(const services::VehicleConfig& config) {
   const std::string& source = config.odometry.source;
   if (source.empty())
     return {Level::ok, "odometry", "no odometry.source: some process of the vehicle must publish it"};
-  const auto poses = services::read_odometry_source(source);
+  std::vector<std::string> warnings;
+  const auto poses = services::read_odometry_source(source, warnings);
   if (!poses) return {Level::error, "odometry", poses.error()};
-  return {Level::ok, "odometry", fmt::format("{}: {} poses", source, poses->size())};
+  return {warnings.empty() ? Level::ok : Level::warning, "odometry",
+          fmt::format("{}: {} poses{}{}", source, poses->size(), warnings.empty() ? "" : "; ",
+                      fmt::join(warnings, "; "))};
 }
 
 template <typename Opened>

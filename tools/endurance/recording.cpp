@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "services/common/tum.hpp"
+#include "services/common/odometry_file.hpp"
 #include "services/ingest/bytes.hpp"
 #include "services/ingest/pcap_reader.hpp"
 
@@ -51,8 +51,10 @@ std::uint64_t keep_frames(Packets& packets, std::int64_t latest_ns) {
 
 tl::expected<Recording, std::string> read_recording(const std::string& folder,
                                                     const std::vector<std::string>& lidars) {
-  const auto poses = services::read_tum(folder + "/odometry.tum");
+  std::vector<std::string> warnings;
+  const auto poses = services::read_odometry_source("tum:" + folder + "/odometry.tum", warnings);
   if (!poses) return tl::make_unexpected(poses.error());
+  if (!warnings.empty()) return tl::make_unexpected(warnings.front());
   const std::int64_t begin_ns = poses->front().stamp_ns;
   const std::int64_t latest_ns = poses->back().stamp_ns - begin_ns - kQuiet_ns;
   Recording recording;

@@ -84,6 +84,7 @@ int run(const gvom::services::VehicleConfig& config, const Options& options) {
     spdlog::error("{}", mapper.error().what);
     return to_int(mapper.error().code);
   }
+  for (const std::string& warning : mapper->odometry_warnings()) spdlog::warn("{}", warning);
   say_backends(*mapper);
   std::vector<std::size_t> told(mapper->lidars().size(), 0);
   gvom::tools::LayerBuffers layers(config.mapper.map.size_xy);
@@ -118,8 +119,10 @@ int main(int argc, char** argv) {
   gvom::services::Cli cli("gvom-map", "Maps recordings in one process: a folder of layers after each sweep.");
   Options options;
   cli.app().add_option("--source", options.sources, "NAME=URI: the recording of one of the vehicle's lidars");
-  cli.app().add_option("--odometry", options.odometry,
-                       "tum:FILE, or static: the vehicle stands at the origin (default: odometry.source)");
+  cli.app().add_option(
+      "--odometry", options.odometry,
+      "tum:FILE, euroc:FILE, kitti:FILE?times=FILE, or static: the vehicle stands at the origin "
+      "(default: odometry.source)");
   cli.app().add_option("--out", options.out, "folder for the maps, 000000 and up");
   cli.app().add_flag("--voxels", options.voxels, "write the fused voxels too");
   cli.app().add_flag("--no-deskew", options.no_deskew,
@@ -139,7 +142,7 @@ int main(int argc, char** argv) {
   if (const auto backend = gvom::services::backend_of(options.backend)) apply_backend(*backend, *config);
   if (options.odometry.empty()) options.odometry = config->odometry.source;
   if (options.odometry.empty()) {
-    spdlog::error("no odometry: give --odometry tum:FILE or --odometry static");
+    spdlog::error("no odometry: give --odometry URI or --odometry static");
     return to_int(ExitCode::usage);
   }
   return run(*config, options);

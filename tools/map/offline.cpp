@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "services/common/tum.hpp"
+#include "services/common/odometry_file.hpp"
 
 namespace gvom::tools {
 
@@ -52,7 +52,7 @@ OfflineExpected<void> OfflineMapper::add_fusion(const services::VehicleConfig& c
 OfflineExpected<void> OfflineMapper::add_odometry(const std::string& odometry) {
   std::vector<StampedPose> poses{{kLongAgo_ns, {}}, {-kLongAgo_ns, {}}};
   if (odometry != "static") {
-    auto recorded = services::read_odometry_source(odometry);
+    auto recorded = services::read_odometry_source(odometry, warnings_);
     if (!recorded) return bad_data(recorded.error());
     poses = std::move(*recorded);
   }

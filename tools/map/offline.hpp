@@ -45,8 +45,9 @@ struct BackendWords {
 class OfflineMapper {
  public:
   /// Opens the source of every lidar that has one, and the back ends that the configuration asks for.
-  /// `odometry`: `tum:FILE`, or `static` for a vehicle that stands at the origin. Without `deskew` all
-  /// returns of a sweep take its stamp, to see what that costs. Errors say which file or back end and why.
+  /// `odometry`: see read_odometry_source, or `static` for a vehicle that stands at the origin. Without
+  /// `deskew` all returns of a sweep take its stamp, to see what that costs. Errors say which file or back
+  /// end and why.
   static OfflineExpected<OfflineMapper> open(const services::VehicleConfig& config,
                                              const std::string& odometry, bool deskew = true);
 
@@ -60,6 +61,8 @@ class OfflineMapper {
 
   [[nodiscard]] MapFuser& fuser() { return *fuser_; }
   [[nodiscard]] const MapFuser& fuser() const { return *fuser_; }
+  /// What a person should hear of the odometry.
+  [[nodiscard]] const std::vector<std::string>& odometry_warnings() const { return warnings_; }
   [[nodiscard]] const BackendWords& fusion_backend() const { return fusion_backend_; }
   [[nodiscard]] std::uint64_t sweeps_without_odometry() const { return without_odometry_; }
   [[nodiscard]] std::uint64_t maps_refused() const { return refused_; }
@@ -83,6 +86,7 @@ class OfflineMapper {
 
   std::vector<Lidar> lidars_;  // sorted by name
   std::unique_ptr<OdometryBuffer> odometry_;
+  std::vector<std::string> warnings_;                                           // of its file
   std::unordered_map<std::uint64_t, std::unique_ptr<BrickMapStorage>> window_;  // by token
   std::unique_ptr<MapFuser> fuser_;                                             // reads what the window holds
   BackendWords fusion_backend_;

@@ -1,0 +1,34 @@
+// A pose as one line of a recording gives it, in each of the formats that are read.
+#pragma once
+
+#include <string>
+
+#include <tl/expected.hpp>
+
+#include "core/pose.hpp"
+
+namespace gvom::services {
+
+using PoseResult = tl::expected<StampedPose, std::string>;
+
+/// `t x y z qx qy qz qw`, seconds and metres. Errors of all three: a number is missing or none or not finite,
+/// a rotation that is none. Quaternions whose norm is off by at most 1e-3 are normalised.
+PoseResult parse_tum_line(const std::string& line);
+
+/// `t,x,y,z,qw,qx,qy,qz` and whatever follows (EuRoC's ground truth), nanoseconds and metres.
+PoseResult parse_euroc_line(const std::string& line);
+
+/// Twelve numbers, the rows of a 3x4 matrix; the stamp is 0.
+PoseResult parse_kitti_line(const std::string& line);
+
+/// True for the line of column names that EuRoC's ground truth begins with.
+bool is_euroc_header(const std::string& line);
+
+/// False if `comment` names columns, of which the fifth is not qw.
+bool may_head_euroc(const std::string& comment);
+
+/// What `line`, the first that is no comment, and `header`, the last comment before it, look like, and what
+/// to do about it, in words; empty if that is not known.
+std::string recognised_format(const std::string& header, const std::string& line);
+
+}  // namespace gvom::services
