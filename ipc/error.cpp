@@ -22,6 +22,8 @@ const char* to_string(ErrorKind kind) {
       return "no_space";
     case ErrorKind::timeout:
       return "timeout";
+    case ErrorKind::stale:
+      return "stale";
   }
   return "unknown";
 }

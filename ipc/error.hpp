@@ -1,6 +1,7 @@
 // Why something on the bus did not work, as a value.
 #pragma once
 
+#include <chrono>
 #include <string>
 
 #include <tl/expected.hpp>
@@ -17,11 +18,13 @@ enum class ErrorKind {
   too_large,     ///< It does not fit the pool that the configuration made for it.
   no_space,      ///< The shared-memory file system is too small for the pools.
   timeout,       ///< Nothing came in time.
+  stale,         ///< What there is, is too old: Error::age.
 };
 
 struct Error {
   ErrorKind kind;
-  std::string message;  ///< One line for a person: what, why, and where it helps what to do.
+  std::string message;              ///< One line for a person: what, why, and where it helps what to do.
+  std::chrono::nanoseconds age{0};  ///< Of what is stale.
 };
 
 template <typename T>

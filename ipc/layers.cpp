@@ -4,6 +4,7 @@
 #include <cstring>
 #include <utility>
 
+#include "ipc/freshness.hpp"
 #include "ipc/text.hpp"
 
 namespace gvom::ipc {
@@ -58,7 +59,6 @@ Expected<LayersWriter> LayersPublisher::loan(int size_xy, int size_z) {
 
 std::uint64_t LayersPublisher::publish(LayersWriter&& writer, std::int64_t stamp_ns, std::uint64_t epoch) {
   writer.header().mono_published_ns = monotonic_ns();
-  writer.header().suspended_ns = suspended_ns();
   return port_.publish(std::move(writer.loan_), writer.layout_.bytes, stamp_ns, epoch);
 }
 
@@ -84,6 +84,10 @@ std::optional<std::size_t> LayersSample::index_of(double x_m, double y_m) const 
 }
 
 std::chrono::nanoseconds LayersSample::age() const {
+  return elapsed(received_at(header()), Moment::now());
+}
+
+std::chrono::nanoseconds LayersSample::publish_age() const {
   return stage_ages().published;
 }
 

@@ -48,7 +48,7 @@ class LayersPublisher {
   OutPort port_;
 };
 
-/// How long ago each stage was, for the newest buffer map in the layers. Negative: that stage has no time.
+/// How long ago each stage was, for the buffer map whose packets came last. Negative: that stage has no time.
 struct StageAges {
   std::chrono::nanoseconds received, mapped, map_published, fused, published;
 };
@@ -72,8 +72,11 @@ class LayersSample {
     return std::size_t(y) * std::size_t(size_xy()) + std::size_t(x);
   }
 
-  /// Since these layers were published. A planner watches this: a dead publisher says nothing.
+  /// Of the data: since the newest packet in them was received (ipc/freshness.hpp). kUnknownAge if they do
+  /// not say it. A planner watches this: a dead publisher says nothing, a slow one publishes old data.
   [[nodiscard]] std::chrono::nanoseconds age() const;
+  /// Since these layers were published, whatever is in them.
+  [[nodiscard]] std::chrono::nanoseconds publish_age() const;
   [[nodiscard]] StageAges stage_ages() const;
 
   /// Names of lidars that are not in the map (LidarStatus::missing): blind sides. Among them those that

@@ -80,7 +80,9 @@ struct BrickMap {
   std::uint64_t dropped_too_near;
   std::uint64_t dropped_too_far;
   std::uint64_t dropped_body;
-  std::int64_t mono_received_ns;  // last packet read
+  std::int64_t mono_received_ns;  // last packet read, in a replay the odometry that reached the sweep's end
+  std::int64_t suspended_ns;      // how long the machine had been suspended until then: CLOCK_MONOTONIC
+                                  // stands still meanwhile, and an age must not
   std::int64_t mono_mapped_ns;    // odometry there, mapping began
   std::int64_t mono_published_ns;
   std::int64_t
@@ -138,13 +140,12 @@ struct Layers {
   std::uint32_t maps_in_window;
   std::uint32_t lidar_count;
   LidarStatus lidars[kMaxLidars];
-  std::int64_t mono_received_ns;  // stage times of the newest map in it
+  std::int64_t mono_received_ns;  // stage times of the map whose packets came last of all in the window
   std::int64_t mono_mapped_ns;
   std::int64_t mono_map_published_ns;
   std::int64_t mono_fused_ns;
   std::int64_t mono_published_ns;
-  std::int64_t suspended_ns;  // how long the machine had been suspended since its start when they were
-                              // published: CLOCK_MONOTONIC stands still then, and the age must not
+  std::int64_t suspended_ns;  // of that map
 };
 
 /// Topic "progress": what a reader has finished, so that a lossless replay can wait for it.

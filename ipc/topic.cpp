@@ -149,8 +149,8 @@ Complaint check_brick_map(const std::byte* message, std::size_t bytes) {
   const auto& map = as<BrickMap>(message);
   const auto& size = map.size_voxels;
   if (auto complaint = bad_frame(map)) return complaint;
-  if (auto complaint =
-          bad_time({map.mono_received_ns, map.mono_mapped_ns, map.mono_published_ns, map.odometry_jump_ns}))
+  if (auto complaint = bad_time({map.mono_received_ns, map.suspended_ns, map.mono_mapped_ns,
+                                 map.mono_published_ns, map.odometry_jump_ns}))
     return complaint;
   if (auto complaint = bad_fraction(map.columns_seen_fraction)) return complaint;
   const std::uint64_t voxels = std::uint64_t(size[0]) * std::uint64_t(size[1]) * std::uint64_t(size[2]);

@@ -19,7 +19,7 @@ int main() {
     if (!layers) {
       std::fprintf(stderr, "%s\n", layers.error().message.c_str());
       if (layers.error().kind == gvom::ipc::ErrorKind::unavailable) _exit(75);  // to be started again
-      continue;                                                                 // stand still: the map is old
+      continue;  // stand still: there is no map (timeout), or it is old (stale: the message says by how much)
     }
     const auto cost = layers->layer_u8(gvom::ipc::LayerId::cost);  // read where fusion wrote it
     const auto& base = layers->header().base_position_m;

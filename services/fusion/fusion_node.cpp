@@ -185,6 +185,7 @@ void FusionNode::publish_layers() {
   services::set_frame(moment.grid, moment.T_odom_base, header);
   fill_lidars(header);
   header.mono_received_ns = newest_.mono_received_ns;
+  header.suspended_ns = newest_.suspended_ns;
   header.mono_mapped_ns = newest_.mono_mapped_ns;
   header.mono_map_published_ns = newest_.mono_published_ns;
   header.mono_fused_ns = fused_ns_;

@@ -179,6 +179,7 @@ bool IngestNode::publish(const Sweep& sweep, const BrickMapShape& shape, std::in
   header.odometry_jump_ns = odometry_jump_ns_;
   // A recording's sweep is there, as a sensor's would be, when the clock reaches it.
   header.mono_received_ns = sweep.received_ns != 0 ? sweep.received_ns : odometry_came_ns_;
+  header.suspended_ns = ipc::suspended_ns();
   header.mono_mapped_ns = begin_ns;
   counters_.wait.record_ns(begin_ns - header.mono_received_ns);
   if (const auto written = mapper_.write(services::arrays_of(*writer)); !written) {

@@ -59,7 +59,8 @@ TEST_CASE("every figure is there, in seconds and bytes") {
   CHECK(value("gvom_product_rate_hertz", R"({process="gvom-fusion"})") == 10);
   CHECK(value("gvom_process_memory_bytes", R"({process="gvom-roudi"})") == 50'000'000);
   CHECK(value("gvom_process_cpu_seconds_total", R"({process="gvom-roudi"})") == 1.5);
-  CHECK(value("gvom_layers_age_seconds", "") == Approx(0.05));
+  CHECK(value("gvom_layers_age_seconds", "") == Approx(0.08));
+  CHECK(value("gvom_layers_publish_age_seconds", "") == Approx(0.05));
   CHECK(value("gvom_lidar_missing", R"({lidar="front"})") == 0);
   CHECK(value("gvom_odometry_rate_hertz", "") == Approx(20));
   CHECK(value("gvom_pool_used_chunks", R"({chunk_bytes="2000"})") == 3);

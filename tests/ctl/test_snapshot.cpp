@@ -32,7 +32,8 @@ TEST_CASE("ages are those of the last Health, and of the packets in the layers")
   CHECK(process(snapshot, "gvom-ingest-front").data_age_s == Approx(0.08));
   CHECK(process(snapshot, "gvom-ingest-rear").data_age_s == Approx(0.33));
   CHECK(!process(snapshot, "gvom-odometry").data_age_s);
-  CHECK(snapshot.layers->age_s == Approx(0.05));
+  CHECK(snapshot.layers->age_s == Approx(0.08));
+  CHECK(snapshot.layers->publish_age_s == Approx(0.05));
   CHECK(snapshot.odometry->age_s == Approx(0.0));
   CHECK(snapshot.odometry->rate_hz == Approx(20.0));
 }
@@ -158,6 +159,25 @@ TEST_CASE("a lidar that fusion does not know, and one whose newest sweep has gap
   CHECK(json["layers"]["lidars"]["left"]["unknown"] == true);
 }
 
+TEST_CASE("layers published a moment ago of old packets, or of packets from nowhere, are old") {
+  VehicleAt vehicle;
+  const auto problem_with = [&](std::int64_t received_ns, std::int64_t suspended_ns) {
+    ipc::Layers layers = layers_at(kNow_ns);
+    layers.mono_received_ns = received_ns;
+    layers.suspended_ns = suspended_ns;
+    vehicle.observed.add(layers);
+    const ctl::Snapshot snapshot = vehicle.snapshot();
+    return snapshot.problems.empty() ? "" : snapshot.problems.front();
+  };
+  CHECK(problem_with(kNow_ns - 500'000'000, 0).empty());
+  CHECK(problem_with(kNow_ns - 2'059'000'000, 0) == "the newest layers are 2.1 s old");
+  CHECK_THAT(problem_with(0, 0), Contains("the newest layers are of unknown age"));
+  CHECK_THAT(problem_with(kNow_ns + 1, 0), Contains("the newest layers are of unknown age"));
+  const auto json = nlohmann::json::parse(to_json(vehicle.snapshot()));
+  CHECK(json["layers"]["age_s"].is_null());
+  CHECK(json["layers"]["publish_age_s"] == 0.0);
+}
+
 TEST_CASE("a broker that is absent, hung or does not let us in is the only problem: the rest is unknown") {
   VehicleAt vehicle;
   vehicle.observed = {};
@@ -216,7 +236,8 @@ TEST_CASE("the table shows what is wrong first, and every figure") {
       well,
       Contains("gvom-fusion             ok           10.0/s     0.5 s    0.08 s         2     50 MB\n"));
   CHECK_THAT(well, Contains("    dropped: 95 overrun (+10/s)\n") && !Contains("no_chunk"));
-  CHECK_THAT(well, Contains("layers: 0.05 s old, packets 0.08 s, 8 maps in the window, missing: no lidar\n"));
+  CHECK_THAT(well,
+             Contains("layers: 0.08 s old, published 0.05 s ago, 8 maps in the window, missing: no lidar\n"));
   CHECK_THAT(well, Contains("odometry: 0.00 s old, 20.0/s\n"));
   CHECK_THAT(well, Contains("2000                            10        3             2\n"));
   vehicle.expected.processes.emplace_back("gvom-ingest-left");

@@ -35,7 +35,7 @@ struct VehicleAt {
           const auto found = restarts.find(process);
           return found == restarts.end() ? std::nullopt : std::optional(found->second);
         }};
-    return ctl::assess(broker, observed, expected, surroundings, kNow_ns);
+    return ctl::assess(broker, observed, expected, surroundings, {kNow_ns});
   }
 
   ctl::Expected expected{"two_lidars",

@@ -58,8 +58,8 @@ Told* shared_told() {
 
 [[noreturn]] void hang_with_layers(Step& holds) {
   auto client = PlannerClient::connect("hangs").value();
-  const auto first = client.newest_layers(5s);
-  const auto second = client.newest_layers(5s);
+  const auto first = client.newest_layers(5s, gvom::ipc::kAnyAge);
+  const auto second = client.newest_layers(5s, gvom::ipc::kAnyAge);
   EXPECT(first && second);
   holds.reach(1);
   while (true) ::raise(SIGSTOP);

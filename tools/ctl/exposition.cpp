@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace gvom::ctl {
 
 namespace {
@@ -35,7 +37,8 @@ void Exposition::add(Type type, const std::string& name, const std::string& help
     family->second = fmt::format("# HELP {} {}\n# TYPE {} {}\n", name, help, name,
                                  type == Type::counter ? "counter" : "gauge");
   }
-  family->second += fmt::format("{}{} {}\n", name, in_braces(labels), value);
+  family->second += fmt::format("{}{} {}\n", name, in_braces(labels),
+                                std::isinf(value) ? "+Inf" : fmt::format("{}", value));
 }
 
 std::string Exposition::text() const {

@@ -30,8 +30,8 @@ int serve_metrics(const Watched& watched, const MetricsOptions& options) {
   }
   BusWatch watch;
   const auto text = [&] {
-    return to_prometheus(assess(watch.broker(), watch.observed(), watched.expected, watched.surroundings,
-                                ipc::monotonic_ns()));
+    return to_prometheus(
+        assess(watch.broker(), watch.observed(), watched.expected, watched.surroundings, ipc::Moment::now()));
   };
   const auto server = HttpServer::open(*endpoint, "/metrics", text);
   if (!server) {

@@ -48,8 +48,8 @@ Json json_of(const ProcessView& process) {
 }
 
 Json json_of(const LayersView& layers) {
-  Json json = {{"age_s", layers.age_s},
-               {"packet_age_s", layers.packet_age_s},
+  Json json = {{"age_s", layers.age_s},  // an infinite one prints as null
+               {"publish_age_s", layers.publish_age_s},
                {"maps_in_window", layers.maps_in_window},
                {"missing", Json::array()},
                {"lidars", Json::object()}};

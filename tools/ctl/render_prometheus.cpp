@@ -96,9 +96,10 @@ void add_counters(Exposition& out, const ProcessView& process, const Labels& lab
 }
 
 void add_layers(Exposition& out, const LayersView& layers) {
-  gauge(out, "gvom_layers_age_seconds", "Since the newest layers were published.", {}, layers.age_s);
-  gauge(out, "gvom_layers_packet_age_seconds", "Since the newest packet in the layers was received.", {},
-        layers.packet_age_s);
+  gauge(out, "gvom_layers_age_seconds", "Since the newest packet in the layers was received.", {},
+        layers.age_s);
+  gauge(out, "gvom_layers_publish_age_seconds", "Since the newest layers were published.", {},
+        layers.publish_age_s);
   gauge(out, "gvom_layers_maps_in_window", "Maps that the layers are made of.", {}, layers.maps_in_window);
   for (const LidarView& lidar : layers.lidars) {
     const Labels labels = {{"lidar", lidar.name}};

@@ -65,8 +65,8 @@ std::string data_lines(const Snapshot& snapshot) {
     std::string missing;
     for (const LidarView& lidar : layers->lidars)
       if (lidar.missing) missing += (missing.empty() ? "" : ", ") + lidar.name;
-    lines += fmt::format("layers: {:.2f} s old, packets {:.2f} s, {} maps in the window, missing: {}\n",
-                         layers->age_s, layers->packet_age_s, layers->maps_in_window,
+    lines += fmt::format("layers: {:.2f} s old, published {:.2f} s ago, {} maps in the window, missing: {}\n",
+                         layers->age_s, layers->publish_age_s, layers->maps_in_window,
                          missing.empty() ? "no lidar" : missing);
     for (const LidarView& lidar : layers->lidars)
       if (!lidar.missing && lidar.columns_seen_fraction < 1)

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
 
 #include "ipc/text.hpp"
 
@@ -12,8 +15,8 @@ namespace {
 
 constexpr char kBroker[] = "gvom-roudi";
 constexpr char kFusion[] = "gvom-fusion";
-constexpr double kSilent_s = 3.0;             // a Health comes once a second
-constexpr double kLayersOld_s = 1.0;          // as fusion judges them itself
+constexpr double kSilent_s = 3.0;  // a Health comes once a second
+constexpr double kLayersOld_s = std::chrono::duration<double>(ipc::kDefaultMaxAge).count();
 constexpr double kOdometryOld_s = 2.0;        // 1 Hz is slow, but it is odometry
 constexpr double kSweepSeen_fraction = 0.95;  // as an ingest judges its packets
 
@@ -119,11 +122,16 @@ ProcessView view_of(const Broker& broker, const Surroundings& surroundings) {
   return view;
 }
 
-LayersView view_of(const ipc::Layers& layers, std::int64_t mono_ns) {
-  LayersView view{seconds_since(layers.mono_published_ns, mono_ns),
-                  seconds_since(layers.mono_received_ns, mono_ns),
-                  layers.maps_in_window,
-                  {}};
+/// Of the data in them.
+double age_s(const ipc::Layers& layers, const ipc::Moment& now) {
+  const auto age = ipc::elapsed(ipc::received_at(layers), now);
+  if (age == ipc::kUnknownAge) return std::numeric_limits<double>::infinity();
+  return std::chrono::duration<double>(age).count();
+}
+
+LayersView view_of(const ipc::Layers& layers, const ipc::Moment& now) {
+  LayersView view{
+      age_s(layers, now), seconds_since(layers.mono_published_ns, now.mono_ns), layers.maps_in_window, {}};
   const auto count = std::min<std::uint32_t>(layers.lidar_count, ipc::kMaxLidars);
   for (std::uint32_t i = 0; i < count; ++i) {
     const ipc::LidarStatus& lidar = layers.lidars[i];
@@ -134,13 +142,12 @@ LayersView view_of(const ipc::Layers& layers, std::int64_t mono_ns) {
 }
 
 /// How old the newest map of a lidar is: as old as the layers, and by as much older as its stamp is.
-std::optional<double> map_age_s(const ipc::Layers& layers, const std::string& lidar, std::int64_t mono_ns) {
+std::optional<double> map_age_s(const ipc::Layers& layers, const std::string& lidar, const ipc::Moment& now) {
   const auto count = std::min<std::uint32_t>(layers.lidar_count, ipc::kMaxLidars);
   for (std::uint32_t i = 0; i < count; ++i) {
     const ipc::LidarStatus& status = layers.lidars[i];
     if (ipc::text_of(status.name) != lidar || status.newest_stamp_ns == 0) continue;
-    return seconds_since(layers.mono_received_ns, mono_ns) +
-           seconds_since(status.newest_stamp_ns, layers.header.stamp_ns);
+    return age_s(layers, now) + seconds_since(status.newest_stamp_ns, layers.header.stamp_ns);
   }
   return std::nullopt;
 }
@@ -187,14 +194,14 @@ std::vector<ProcessView> processes_of(const Broker& broker, const Observed& obse
 }
 
 /// What the layers and systemd know of a process.
-void complete(const Observed& observed, const Surroundings& surroundings, std::int64_t mono_ns,
+void complete(const Observed& observed, const Surroundings& surroundings, const ipc::Moment& now,
               ProcessView& view) {
   view.restarts = surroundings.restarts(view.name);
   const auto& layers = observed.layers();
   if (!layers) return;
-  if (view.name == kFusion) view.data_age_s = seconds_since(layers->mono_received_ns, mono_ns);
+  if (view.name == kFusion) view.data_age_s = age_s(*layers, now);
   const std::string lidar = tools::lidar_of(view.name);
-  if (!lidar.empty()) view.data_age_s = map_age_s(*layers, lidar, mono_ns);
+  if (!lidar.empty()) view.data_age_s = map_age_s(*layers, lidar, now);
 }
 
 void add_problems(const ProcessView& process, const std::string& version,
@@ -233,6 +240,8 @@ std::vector<std::string> problems_of(const Snapshot& snapshot) {
   }
   if (!snapshot.layers)
     problems.emplace_back("no layers came");
+  else if (std::isinf(snapshot.layers->age_s))
+    problems.emplace_back("the newest layers are " + ipc::age_words(ipc::kUnknownAge));
   else if (snapshot.layers->age_s > kLayersOld_s)
     problems.push_back(fmt::format("the newest layers are {:.1f} s old", snapshot.layers->age_s));
   if (snapshot.layers)
@@ -257,18 +266,18 @@ const char* to_string(ProcessState state) {
 }
 
 Snapshot assess(const Broker& broker, const Observed& observed, const Expected& expected,
-                const Surroundings& surroundings, std::int64_t mono_ns) {
+                const Surroundings& surroundings, const ipc::Moment& now) {
   Snapshot snapshot;
   snapshot.vehicle = expected.vehicle;
   snapshot.version = expected.version;
   if (expected.config_hash) snapshot.config_hash = hash_text(*expected.config_hash);
   snapshot.broker = broker;
-  snapshot.processes = processes_of(broker, observed, expected, surroundings, mono_ns);
-  for (ProcessView& process : snapshot.processes) complete(observed, surroundings, mono_ns, process);
-  if (observed.layers()) snapshot.layers = view_of(*observed.layers(), mono_ns);
+  snapshot.processes = processes_of(broker, observed, expected, surroundings, now.mono_ns);
+  for (ProcessView& process : snapshot.processes) complete(observed, surroundings, now, process);
+  if (observed.layers()) snapshot.layers = view_of(*observed.layers(), now);
   if (observed.odometry())
     snapshot.odometry =
-        OdometryView{seconds_since(observed.odometry()->mono_ns, mono_ns), observed.odometry()->rate_hz};
+        OdometryView{seconds_since(observed.odometry()->mono_ns, now.mono_ns), observed.odometry()->rate_hz};
   snapshot.pools = observed.pools();
   snapshot.refusals = observed.refusals();
   snapshot.problems = problems_of(snapshot);

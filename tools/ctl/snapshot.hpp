@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "ipc/freshness.hpp"
 #include "tools/common/health_view.hpp"
 #include "tools/common/process_usage.hpp"
 #include "tools/ctl/observed.hpp"
@@ -79,8 +80,8 @@ struct LidarView {
 };
 
 struct LayersView {
-  double age_s;         ///< Since they were published.
-  double packet_age_s;  ///< Since the last packet in them was received.
+  double age_s;          ///< Of the data, as ipc/freshness.hpp has it; infinite: unknown.
+  double publish_age_s;  ///< Since they were published.
   std::uint32_t maps_in_window;
   std::vector<LidarView> lidars;
 };
@@ -106,9 +107,8 @@ struct Snapshot {
 /// "starting", "ok", ..., "unknown".
 const char* to_string(ProcessState state);
 
-/// At `mono_ns` of CLOCK_MONOTONIC.
 Snapshot assess(const Broker& broker, const Observed& observed, const Expected& expected,
-                const Surroundings& surroundings, std::int64_t mono_ns);
+                const Surroundings& surroundings, const ipc::Moment& now);
 
 /// Whether a longer look would tell no more: all that is expected was heard twice, and so on.
 bool is_complete(const Observed& observed, const Expected& expected);

@@ -34,7 +34,7 @@ int show_status(const Watched& watched, std::chrono::milliseconds patience, bool
     watch.step(kStep);
   } while (goes_on(watch, watched) && std::chrono::steady_clock::now() < deadline);
   const Snapshot snapshot =
-      assess(watch.broker(), watch.observed(), watched.expected, watched.surroundings, ipc::monotonic_ns());
+      assess(watch.broker(), watch.observed(), watched.expected, watched.surroundings, ipc::Moment::now());
   std::fputs((json ? to_json(snapshot) : to_table(snapshot)).c_str(), stdout);
   std::fflush(stdout);
   return exit_code_of(snapshot);

@@ -72,7 +72,7 @@ int show_top(const Watched& watched, std::uint64_t count) {
     if (std::chrono::steady_clock::now() < next_frame) continue;
     next_frame += kFramePeriod;
     screen.show(to_table(assess(watch.broker(), watch.observed(), watched.expected, watched.surroundings,
-                                ipc::monotonic_ns())));
+                                ipc::Moment::now())));
     ++shown;
   }
   return to_int(services::ExitCode::ok);

@@ -1,6 +1,7 @@
 #include "tools/snapshot/consumer.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "ipc/text.hpp"
 #include "services/common/log.hpp"
@@ -25,7 +26,7 @@ class Consumer {
 
   /// Waits up to `timeout` for newer layers. False: the broker is gone.
   bool refresh(std::chrono::milliseconds timeout) {
-    auto sample = client_.newest_layers(timeout);
+    auto sample = client_.newest_layers(timeout, ipc::kAnyAge);  // it shows how old they are
     while (const auto refusal = client_.new_refusal()) spdlog::warn("{}", *refusal);
     if (sample) {
       newest_.emplace(std::move(*sample));
@@ -51,6 +52,8 @@ class Consumer {
     spdlog::info("picture {} in {}: stamp {:.3f} s, age {:.3f} s, {} layers taken, {} lost, {} refused",
                  output_.written(), output_.folder(), static_cast<double>(picture.stamp_ns) * 1e-9,
                  picture.age_s, counters.received, counters.lost, counters.refused());
+    if (picture.age_s > seconds(ipc::kDefaultMaxAge))
+      spdlog::warn("the layers in it are {}", ipc::age_words(newest_->age()));
     for (const LidarLine& lidar : picture.lidars)
       if (lidar.missing) spdlog::warn("lidar {} is missing", lidar.name);
     return true;
@@ -119,8 +122,8 @@ LayersPicture picture_of(const ipc::LayersSample& sample, const std::string& veh
   std::copy_n(header.base_position_m, 3, picture.base_position_m.begin());
   std::copy_n(header.base_orientation_xyzw, 4, picture.base_orientation_xyzw.begin());
   picture.stamp_ns = header.header.stamp_ns;
-  const auto received = sample.stage_ages().received;
-  picture.age_s = seconds(received.count() >= 0 ? received : sample.age());
+  const auto age = sample.age();
+  picture.age_s = age == ipc::kUnknownAge ? std::numeric_limits<double>::infinity() : seconds(age);
   picture.maps_in_window = header.maps_in_window;
   for (std::uint32_t i = 0; i < header.lidar_count; ++i)
     picture.lidars.push_back(line_of(header.lidars[i], picture.stamp_ns));

@@ -32,7 +32,8 @@ struct LayersPicture {
   std::array<double, 3> base_position_m{};  ///< base_link in odom; NaN: not known.
   std::array<double, 4> base_orientation_xyzw = {std::nan(""), 0, 0, 0};  ///< In odom; NaN: not known.
   std::int64_t stamp_ns = 0;
-  double age_s = std::nan("");  ///< Since the newest sweep in it arrived; NaN: not live.
+  double age_s =
+      std::nan("");  ///< Of the data, as ipc/freshness.hpp has it; infinite: unknown. NaN: not live.
   std::uint32_t maps_in_window = 0;
   std::vector<LidarLine> lidars;
   std::array<const float*, ipc::kFloatLayers> float_layers{};                       ///< height .. last_seen

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <ctime>
 
+#include "ipc/freshness.hpp"
 #include "tools/snapshot/draw.hpp"
 
 namespace gvom::snapshot {
@@ -15,7 +16,7 @@ constexpr int kMargin = 28;
 constexpr int kMontageMap_px = 512;
 constexpr int kLayerMap_px = 768;
 constexpr int kMinLayerZoom = 2;
-constexpr double kStaleAge_s = 1.0;
+constexpr double kStaleAge_s = std::chrono::duration<double>(ipc::kDefaultMaxAge).count();
 
 template <typename... Values>
 std::string format(const char* pattern, Values... values) {
@@ -64,9 +65,10 @@ void draw_header(Canvas& canvas, double left, const LayersPicture& picture) {
   double x =
       canvas.text({left, 34}, picture.vehicle.empty() ? "gvom" : picture.vehicle, {24, kInk, true}) + 22;
   x = canvas.text({x, 34}, stamp_text(picture.stamp_ns), {15, kInk}) + 22;
-  if (std::isfinite(picture.age_s)) {
+  if (!std::isnan(picture.age_s)) {
     const bool stale = picture.age_s > kStaleAge_s;
-    x = canvas.text({x, 34}, format("age %.2f s", picture.age_s), {15, stale ? kAlarm : kInk, stale}) + 22;
+    const std::string age = std::isinf(picture.age_s) ? "age unknown" : format("age %.2f s", picture.age_s);
+    x = canvas.text({x, 34}, stale ? "STALE: " + age : age, {15, stale ? kAlarm : kInk, stale}) + 22;
   }
   if (std::isfinite(base[0]))
     canvas.text({x, 34}, format("at x %.1f, y %.1f, z %.1f m", base[0], base[1], base[2]), {15, kFaintInk});

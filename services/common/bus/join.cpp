@@ -18,6 +18,7 @@ ExitCode exit_code_of(const ipc::Error& error) {
     case ipc::ErrorKind::in_use:
     case ipc::ErrorKind::exhausted:
     case ipc::ErrorKind::timeout:
+    case ipc::ErrorKind::stale:
       return ExitCode::try_again;
     case ipc::ErrorKind::too_large:
       return ExitCode::configuration;
