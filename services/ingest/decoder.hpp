@@ -13,11 +13,23 @@ class Decoder {
  public:
   virtual ~Decoder() = default;
 
-  /// True if the packet has the size and the marks of this sensor's lidar packets. decode() takes only these.
+  /// True if the packet has the size and the marks of this kind of sensor's lidar packets. decode() takes
+  /// only these.
   [[nodiscard]] virtual bool recognises(const Packet& packet) const = 0;
 
   /// What recognises() looks for, in words.
   [[nodiscard]] virtual std::string expects() const = 0;
+
+  /// Whether a packet that is recognised is of the very sensor that the source is of, as far as it tells.
+  [[nodiscard]] virtual bool is_of_this_sensor(const Packet& /*packet*/) const { return true; }
+
+  /// Whose a packet is that is not recognised, or not of this sensor, as its bytes prove: "a VLS-128, model
+  /// byte 0xA1". Empty if they prove nothing.
+  virtual void name_other(const Packet& packet, KindText& out) const = 0;
+
+  /// For an error, behind name_other(): what the source takes its packets for, and how it can be told that
+  /// these are right.
+  [[nodiscard]] virtual std::string override_advice(const Packet& packet) const = 0;
 
   /// What tells this packet's sensor from others at the same address: its serial number or model; 0: nothing.
   [[nodiscard]] virtual std::uint64_t sensor_id(const Packet& packet) const = 0;

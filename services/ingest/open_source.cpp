@@ -16,24 +16,41 @@ using SourceResult = tl::expected<std::unique_ptr<Source>, SourceError>;
 using DecoderResult = tl::expected<std::unique_ptr<Decoder>, std::string>;
 using PacketsResult = tl::expected<std::unique_ptr<PacketSource>, SourceError>;
 
-DecoderResult make_decoder(const SourceUri& uri, const SourceOptions& options, SourceState& state) {
-  const bool ouster = uri.scheme.compare(0, 6, "ouster") == 0;
-  const auto needed = uri.option(ouster ? "meta" : "model");
-  if (!needed) {
-    return tl::unexpected("source '" + uri.text + "': needs " +
-                          (ouster ? "meta=FILE.json" : "model=M (" + known_velodyne_models() + ")"));
-  }
-  if (ouster) {
-    auto metadata = read_ouster_metadata(*needed, state.warnings);
-    if (!metadata) return tl::unexpected(metadata.error());
-    return std::make_unique<OusterDecoder>(std::move(*metadata), options, state);
-  }
-  const VelodyneModel* model = find_velodyne_model(*needed);
+DecoderResult make_ouster(const SourceUri& uri, const SourceOptions& options, SourceState& state) {
+  const auto path = uri.option("meta");
+  if (!path) return tl::unexpected("source '" + uri.text + "': needs meta=FILE.json");
+  auto metadata = read_ouster_metadata(*path, state.warnings);
+  if (!metadata) return tl::unexpected(metadata.error());
+  const auto serial = number_option(uri, "serial", 0xFF'FFFF'FFFF);
+  if (!serial) return tl::unexpected(serial.error());
+  if (*serial) metadata->serial = **serial;
+  return std::make_unique<OusterDecoder>(std::move(*metadata), options, state);
+}
+
+DecoderResult make_velodyne(const SourceUri& uri, const SourceOptions& options, SourceState& state) {
+  const auto name = uri.option("model");
+  if (!name)
+    return tl::unexpected("source '" + uri.text + "': needs model=M (" + known_velodyne_models() + ")");
+  const VelodyneModel* model = find_velodyne_model(*name);
   if (model == nullptr) {
-    return tl::unexpected("source '" + uri.text + "': unknown model '" + *needed + "' (" +
+    return tl::unexpected("source '" + uri.text + "': unknown model '" + *name + "' (" +
                           known_velodyne_models() + ")");
   }
-  return std::make_unique<VelodyneDecoder>(*model, options, state);
+  VelodyneMarks marks{model->model_byte, model->banks, std::nullopt};
+  const auto byte = number_option(uri, "model_byte", 0xFF);
+  if (!byte) return tl::unexpected(byte.error());
+  if (*byte) marks.model_byte = static_cast<std::uint8_t>(**byte);
+  if (const auto returns = uri.option("returns")) {
+    if (*returns != "single" && *returns != "dual")
+      return tl::unexpected("source '" + uri.text + "': returns '" + *returns + "' is not single or dual");
+    marks.returns = *returns == "dual" ? VelodyneReturns::dual : VelodyneReturns::single;
+  }
+  return std::make_unique<VelodyneDecoder>(*model, marks, options, state);
+}
+
+DecoderResult make_decoder(const SourceUri& uri, const SourceOptions& options, SourceState& state) {
+  const bool ouster = uri.scheme.compare(0, 6, "ouster") == 0;
+  return ouster ? make_ouster(uri, options, state) : make_velodyne(uri, options, state);
 }
 
 /// Reads `path` up to the first packet that the decoder recognises; an error if there is none.
@@ -43,15 +60,20 @@ tl::expected<void, std::string> probe_recording(const std::string& path, std::op
   auto reader = PcapReader::open(path, port, ignored);
   if (!reader) return tl::unexpected(reader.error());
   std::map<std::size_t, std::uint64_t> sizes;
-  std::string cut;
+  std::string of_another;
   for (;;) {
     Packet packet;
     const auto event = (*reader)->next(packet, std::chrono::milliseconds(0));
     if (!event) return tl::unexpected(event.error());
     if (*event == PacketEvent::end) break;
-    if (decoder.recognises(packet)) return {};
+    if (decoder.recognises(packet) && decoder.is_of_this_sensor(packet)) return {};
     ++sizes[packet.size];
+    KindText kind{};
+    decoder.name_other(packet, kind);
+    if (of_another.empty() && kind[0] != '\0')
+      of_another = std::string(kind.data()) + "); " + decoder.override_advice(packet);
   }
+  if (!of_another.empty()) return tl::unexpected(path + ": the packets are of another sensor (" + of_another);
   if (!ignored.warnings.empty())
     return tl::unexpected(ignored.warnings.front() + ", but there is no lidar packet");
   if ((*reader)->records() == 0) return tl::unexpected(path + ": holds no packets");
@@ -96,10 +118,10 @@ tl::expected<std::unique_ptr<Source>, SourceError> open_source(const std::string
   const auto uri = parse_source_uri(text);
   if (!uri) return tl::unexpected(uri.error());
   const std::map<std::string, std::set<std::string>> schemes = {
-      {"ouster", {"meta", "port"}},
-      {"ouster-udp", {"meta", "bind"}},
-      {"velodyne", {"model", "port"}},
-      {"velodyne-udp", {"model", "bind"}},
+      {"ouster", {"meta", "port", "serial"}},
+      {"ouster-udp", {"bind", "meta", "serial"}},
+      {"velodyne", {"model", "model_byte", "port", "returns"}},
+      {"velodyne-udp", {"bind", "model", "model_byte", "returns"}},
       {"scans", {}},
   };
   const auto scheme = schemes.find(uri->scheme);

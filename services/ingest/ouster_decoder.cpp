@@ -1,6 +1,7 @@
 #include "services/ingest/ouster_decoder.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <utility>
 
 #include "services/ingest/bytes.hpp"
@@ -53,6 +54,27 @@ bool OusterDecoder::recognises(const Packet& packet) const {
 std::string OusterDecoder::expects() const {
   return std::to_string(metadata_.beams()) + " beams, " + std::string(metadata_.layout.name) +
          ": packets of " + std::to_string(metadata_.packet_size()) + " bytes";
+}
+
+/// A packet or metadata without a serial number proves nothing.
+bool OusterDecoder::is_of_this_sensor(const Packet& packet) const {
+  const std::uint64_t serial = sensor_id(packet);
+  return serial == 0 || metadata_.serial == 0 || serial == metadata_.serial;
+}
+
+void OusterDecoder::name_other(const Packet& packet, KindText& out) const {
+  out[0] = '\0';
+  if (!recognises(packet) || is_of_this_sensor(packet)) return;
+  std::snprintf(out.data(), out.size(), "serial number %llu, the metadata is of %llu",
+                static_cast<unsigned long long>(sensor_id(packet)),
+                static_cast<unsigned long long>(metadata_.serial));
+}
+
+std::string OusterDecoder::override_advice(const Packet& packet) const {
+  return "beam angles are each sensor's own; if the metadata is right for these packets all the same, say so "
+         "in "
+         "the source: serial=" +
+         std::to_string(sensor_id(packet));
 }
 
 /// Packets of the newer profiles carry the sensor's serial number, 5 bytes.
@@ -126,7 +148,6 @@ bool OusterDecoder::decode(const Packet& packet, Sweep& out) {
   const bool fits = belongs == Belongs::open_frame || belongs == Belongs::next_frame;
   if (fits) restart_.fits();
   if (!fits && !count_stray(belongs, packet.data)) return false;
-  check_serial(sensor_id(packet));
   bool closed = false;
   if (belongs != Belongs::open_frame) {
     const bool follows = fits && any_frame_;
@@ -229,15 +250,6 @@ std::size_t OusterDecoder::project(const std::uint8_t* pixels, std::uint16_t mea
     }
   }
   return 0;
-}
-
-void OusterDecoder::check_serial(std::uint64_t serial) {
-  if (serial_checked_) return;
-  serial_checked_ = true;
-  if (metadata_.serial == 0 || serial == 0 || serial == metadata_.serial) return;
-  state_.warnings.push_back("the metadata is of sensor " + std::to_string(metadata_.serial) +
-                            ", the packets are of sensor " + std::to_string(serial) +
-                            ": beam angles may be wrong");
 }
 
 }  // namespace gvom::ingest

@@ -20,6 +20,9 @@ class OusterDecoder final : public Decoder {
 
   [[nodiscard]] bool recognises(const Packet& packet) const override;
   [[nodiscard]] std::string expects() const override;
+  [[nodiscard]] bool is_of_this_sensor(const Packet& packet) const override;
+  void name_other(const Packet& packet, KindText& out) const override;
+  [[nodiscard]] std::string override_advice(const Packet& packet) const override;
   [[nodiscard]] std::uint64_t sensor_id(const Packet& packet) const override;
   [[nodiscard]] double most_packets_per_s() const override;
   bool decode(const Packet& packet, Sweep& out) override;
@@ -40,7 +43,6 @@ class OusterDecoder final : public Decoder {
   void use(const Packet& packet);
   void use_column(const std::uint8_t* bytes, const OusterColumn& column);
   std::size_t project(const std::uint8_t* pixels, std::uint16_t measurement_id, std::uint32_t time_index);
-  void check_serial(std::uint64_t serial);
   void count_skipped_frames(std::uint16_t frame);
 
   OusterMetadata metadata_;
@@ -58,7 +60,6 @@ class OusterDecoder final : public Decoder {
   bool open_ = false;
   bool whole_ = false;          // the open frame was seen from its beginning
   std::int64_t newest_ns_ = 0;  // newest column of the open frame, or of the one just completed
-  bool serial_checked_ = false;
 };
 
 }  // namespace gvom::ingest

@@ -47,10 +47,10 @@ bool PacketSweepSource::decode(const Packet& packet, Sweep& out) {
     warn_if_nothing_fits(packet.size);
     return false;
   }
-  if (is_of_our_sensor(packet)) return decoder_->decode(packet, out);
-  ++state_->counters.second_sensor_packets;
-  std::copy_n(packet.source.begin(), state_->counters.second_ipv4.size(),
-              state_->counters.second_ipv4.begin());
+  const bool of_this_sensor = decoder_->is_of_this_sensor(packet);
+  if (of_this_sensor && is_of_our_sensor(packet)) return decoder_->decode(packet, out);
+  count_second(packet);
+  if (!of_this_sensor) return false;
   // The new sensor's frames must not go into the open sweep of the one before.
   return !sensor_ && decoder_->finish(out);
 }
@@ -59,6 +59,24 @@ void PacketSweepSource::count_foreign(const Packet& packet) {
   SourceCounters& counters = state_->counters;
   if (++counters.foreign_packets > 1 && counters.foreign_size != packet.size) ++counters.foreign_size_changes;
   counters.foreign_size = packet.size;
+  decoder_->name_other(packet, counters.foreign_kind);
+  warn_of_other(counters.foreign_kind);
+}
+
+void PacketSweepSource::count_second(const Packet& packet) {
+  SourceCounters& counters = state_->counters;
+  ++counters.second_sensor_packets;
+  std::copy_n(packet.source.begin(), counters.second_ipv4.size(), counters.second_ipv4.begin());
+  decoder_->name_other(packet, counters.second_kind);
+  warn_of_other(counters.second_kind);
+}
+
+/// Once: Health tells it as long as such packets come.
+void PacketSweepSource::warn_of_other(const KindText& kind) {
+  if (kind[0] == '\0' || warned_of_other_) return;
+  warned_of_other_ = true;
+  state_->warnings.push_back("packets of another sensor (" + std::string(kind.data()) +
+                             ") come too: none of them is used; expected: " + decoder_->expects());
 }
 
 /// The first sender is the sensor until another one takes over.

@@ -37,6 +37,8 @@ class PacketSweepSource final : public Source {
 
   bool decode(const Packet& packet, Sweep& out);
   void count_foreign(const Packet& packet);
+  void count_second(const Packet& packet);
+  void warn_of_other(const KindText& kind);
   bool is_of_our_sensor(const Packet& packet);
   bool takes_over(const Packet& packet, const Sender& sender);
   void warn_if_nothing_fits(std::size_t packet_size);
@@ -51,6 +53,7 @@ class PacketSweepSource final : public Source {
   RestartDetector other_sensor_;      // in a recording
   std::optional<std::string> error_;  // to be told after the last sweep
   bool ended_ = false;
+  bool warned_of_other_ = false;
   int unrecognised_ = 0;  // packets before the first that the decoder recognises
 };
 

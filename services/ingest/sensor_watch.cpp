@@ -1,5 +1,7 @@
 #include "services/ingest/sensor_watch.hpp"
 
+#include <cstdio>
+
 namespace gvom::ingest {
 
 namespace {
@@ -14,6 +16,13 @@ constexpr double kMisplacedPercent = 2;  // of packets
 
 double percent(std::uint64_t part, std::uint64_t whole) {
   return whole == 0 ? 0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole);
+}
+
+/// " (a VLS-128, model byte 0xA1)", or nothing.
+std::array<char, sizeof(KindText) + 4> in_brackets(const KindText& kind) {
+  std::array<char, sizeof(KindText) + 4> text{};
+  if (kind[0] != '\0') std::snprintf(text.data(), text.size(), " (%s)", kind.data());
+  return text;
 }
 
 std::uint32_t bit(std::size_t fault) {
@@ -57,6 +66,7 @@ void SensorWatch::judge(const Look& before, const Look& now) {
     see(SensorFault::flood, packets);
   if (const double second = rate(&SourceCounters::second_sensor_packets); second > kStrayPerSecond) {
     second_ipv4_ = now.counters.second_ipv4;
+    second_kind_ = now.counters.second_kind;
     see(SensorFault::second_sensor, second);
   }
   if (const double lost = rate(&SourceCounters::kernel_drops); lost > 0) see(SensorFault::queue_loss, lost);
@@ -72,6 +82,7 @@ void SensorWatch::judge_foreign(const Look& before, const Look& now, double per_
   if (rate <= kStrayPerSecond) return;
   const std::uint64_t changes = now.counters.foreign_size_changes - before.counters.foreign_size_changes;
   foreign_size_ = now.counters.foreign_size;
+  foreign_kind_ = now.counters.foreign_kind;
   see(changes * 10 > foreign ? SensorFault::garbage : SensorFault::other_model, rate);
 }
 
@@ -106,11 +117,12 @@ void SensorWatch::tell(SensorFault fault, double value, services::Words& words) 
     case SensorFault::flood:
       return words.add("flood: %.0f packets/s, a sensor sends at most %.0f", value, most_packets_per_s_);
     case SensorFault::second_sensor:
-      return words.add("packets of a second sensor at %u.%u.%u.%u: %.0f/s not used", from[0], from[1],
-                       from[2], from[3], value);
+      return words.add("packets of a second sensor at %u.%u.%u.%u%s: %.0f/s not used", from[0], from[1],
+                       from[2], from[3], in_brackets(second_kind_).data(), value);
     case SensorFault::other_model:
-      return words.add("packets of another model, %llu bytes each: %.0f/s not used",
-                       static_cast<unsigned long long>(foreign_size_), value);
+      return words.add("packets of another model, %llu bytes each%s: %.0f/s not used",
+                       static_cast<unsigned long long>(foreign_size_), in_brackets(foreign_kind_).data(),
+                       value);
     case SensorFault::garbage:
       return words.add("garbage: %.0f packets/s not used", value);
     case SensorFault::loss:

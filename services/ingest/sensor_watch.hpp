@@ -66,6 +66,8 @@ class SensorWatch {
   };
   std::array<Seen, static_cast<std::size_t>(SensorFault::count)> seen_{};
   std::array<std::uint8_t, 4> second_ipv4_{};
+  KindText second_kind_{};
+  KindText foreign_kind_{};
   std::uint64_t foreign_size_ = 0;
   std::uint32_t faults_ = 0;
 };

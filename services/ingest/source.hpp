@@ -15,6 +15,9 @@
 
 namespace gvom::ingest {
 
+/// Whose packets came, in words: a text that ends with 0.
+using KindText = std::array<char, 64>;
+
 /// Why input was not used. Everything that is dropped is in exactly one of these.
 struct SourceCounters {
   std::uint64_t packets = 0;                ///< Packets handed to the decoder.
@@ -39,6 +42,8 @@ struct SourceCounters {
   std::uint64_t foreign_size_changes = 0;  ///< Foreign packets of another size than the foreign one before.
   std::uint64_t foreign_size = 0;          ///< Of the newest foreign packet, bytes.
   std::array<std::uint8_t, 4> second_ipv4{};  ///< Who sent the newest packet of a second sensor.
+  KindText foreign_kind{};                    ///< Whose the newest foreign packet is, if its bytes prove it.
+  KindText second_kind{};                     ///< Whose the newest packet of a second sensor is, likewise.
 };
 
 /// What `Source::next` found.
@@ -94,7 +99,7 @@ class Source {
 };
 
 /// Opens `ouster:FILE.pcap?meta=FILE.json`, `ouster-udp:PORT?meta=FILE.json`, `velodyne:FILE.pcap?model=M`,
-/// `velodyne-udp:PORT?model=M` (M: VLP-16, VLP-32C, HDL-32) or `scans:PATH`.
+/// `velodyne-udp:PORT?model=M` (M: see known_velodyne_models()) or `scans:PATH`; README.md has all options.
 tl::expected<std::unique_ptr<Source>, SourceError> open_source(const std::string& uri,
                                                                const SourceOptions& options);
 

@@ -70,6 +70,20 @@ tl::expected<std::uint16_t, std::string> parse_port(std::string_view text) {
   return port;
 }
 
+tl::expected<std::optional<std::uint64_t>, std::string> number_option(const SourceUri& uri,
+                                                                      const std::string& key,
+                                                                      std::uint64_t most) {
+  const auto text = uri.option(key);
+  if (!text) return std::nullopt;
+  const bool hex = text->compare(0, 2, "0x") == 0;
+  std::uint64_t value = 0;
+  const char* const last = text->data() + text->size();
+  const auto [end, error] = std::from_chars(text->data() + (hex ? 2 : 0), last, value, hex ? 16 : 10);
+  if (error == std::errc{} && end == last && value <= most) return value;
+  return tl::unexpected("source '" + uri.text + "': " + key + " '" + *text +
+                        "' is not a whole number of at most " + std::to_string(most));
+}
+
 tl::expected<std::optional<std::uint16_t>, std::string> port_option(const SourceUri& uri) {
   const auto text = uri.option("port");
   if (!text) return std::nullopt;

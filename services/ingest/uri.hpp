@@ -32,6 +32,11 @@ tl::expected<void, std::string> check_options(const SourceUri& uri, const std::s
 /// A UDP port, 1 .. 65535.
 tl::expected<std::uint16_t, std::string> parse_port(std::string_view text);
 
+/// The option `key` as a whole number of at most `most`, if it is there: decimal, or hexadecimal behind 0x.
+tl::expected<std::optional<std::uint64_t>, std::string> number_option(const SourceUri& uri,
+                                                                      const std::string& key,
+                                                                      std::uint64_t most);
+
 /// The option `port`, if it is there.
 tl::expected<std::optional<std::uint16_t>, std::string> port_option(const SourceUri& uri);
 

@@ -4,21 +4,17 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <utility>
 
 #include "services/ingest/bytes.hpp"
 
 namespace gvom::ingest {
 namespace {
 
-constexpr std::size_t kPacketSize = 1206;
-constexpr std::size_t kBlockSize = 100;
-constexpr std::uint16_t kBlockFlag = 0xEEFF;
-constexpr std::uint8_t kDualReturn = 0x39;
 constexpr int kTurn = 36000;     // 1/100 degree
 constexpr int kMaxJitter = 100;  // the azimuth of a turning sensor goes back no further than this
 constexpr double kMaxTurnsPerSecond = 25.0;
 constexpr std::int64_t kMaxTurnNs = 500'000'000;  // the slowest turn is 0.2 s
-constexpr std::size_t kMaxPackets = 2048;         // in half a second: HDL-32, dual return: 1808
 constexpr std::uint32_t kHourUs = 3'600'000'000u;
 constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180.0;
 
@@ -26,36 +22,67 @@ std::int64_t to_ns(double microseconds) {
   return std::llround(microseconds * 1e3);
 }
 
-bool is_block(const std::uint8_t* block) {
-  return load_le<std::uint16_t>(block) == kBlockFlag && load_le<std::uint16_t>(block + 2) < kTurn;
+int azimuth_of(const std::uint8_t* block) {
+  return load_le<std::uint16_t>(block + 2);
+}
+
+bool is_block(const std::uint8_t* block, int bank) {
+  return velodyne_bank(block) == bank && azimuth_of(block) < kTurn;
+}
+
+/// Dual return mode sends the most: a sequence is two blocks of each bank.
+double most_packets(const VelodyneModel& model) {
+  const int blocks = 2 * model.banks;
+  const int sequences = kVelodyneBlocks / blocks;
+  return 1e6 / (sequences * model.sequence_us);
 }
 
 }  // namespace
 
-VelodyneDecoder::VelodyneDecoder(const VelodyneModel& model, const SourceOptions& options, SourceState& state)
-    : model_(model), state_(state), builder_(options, kMaxPackets * kBlocks * 2, state.counters) {
-  packet_times_ns_.reserve(kMaxPackets);
-  for (std::size_t i = 0; i < lasers_.size(); ++i) {
-    const double angle = model.lasers[i].vertical_deg * kRadiansPerDegree;
-    lasers_[i] = {std::cos(angle), std::sin(angle)};
+VelodyneDecoder::VelodyneDecoder(VelodyneModel model, const VelodyneMarks& marks,
+                                 const SourceOptions& options, SourceState& state)
+    : model_(std::move(model)),
+      marks_(marks),
+      max_packets_(static_cast<std::size_t>(most_packets(model_) * kMaxTurnNs * 1e-9 * 1.1)),
+      state_(state),
+      builder_(options, max_packets_ * kVelodyneBlocks, state.counters) {
+  packet_times_ns_.reserve(max_packets_);
+  for (const VelodyneLaser& laser : model_.lasers) {
+    const double angle = laser.vertical_deg * kRadiansPerDegree;
+    lasers_.push_back({std::cos(angle), std::sin(angle)});
   }
 }
 
 bool VelodyneDecoder::recognises(const Packet& packet) const {
-  return packet.size == kPacketSize && load_le<std::uint16_t>(packet.data) == kBlockFlag &&
+  return packet.size == kVelodynePacketSize && marks_.fit(packet.data) &&
          load_le<std::uint32_t>(packet.data + 1200) < kHourUs;
 }
 
 std::string VelodyneDecoder::expects() const {
-  return std::string(model_.name) + ": packets of 1206 bytes that begin with FF EE";
+  char byte[32] = "";
+  if (marks_.model_byte) std::snprintf(byte, sizeof byte, ", model byte 0x%02X", *marks_.model_byte);
+  return std::string(model_.name) + ": packets of 1206 bytes that begin with FF EE" + byte;
+}
+
+void VelodyneDecoder::name_other(const Packet& packet, KindText& out) const {
+  out[0] = '\0';
+  if (packet.size == kVelodynePacketSize && !marks_.fit(packet.data)) marks_.name(packet.data, out);
+}
+
+std::string VelodyneDecoder::override_advice(const Packet& packet) const {
+  char byte[64];
+  std::snprintf(byte, sizeof byte, "model_byte=0x%02X%s", packet.data[kVelodynePacketSize - 1],
+                velodyne_returns(packet.data) ? "" : "&returns=single (or dual)");
+  return "the source says " + expects() +
+         "; if the packets' last bytes are wrong, add to the source: " + byte;
 }
 
 std::uint64_t VelodyneDecoder::sensor_id(const Packet& packet) const {
-  return packet.data[kPacketSize - 1];
+  return packet.data[kVelodynePacketSize - 1];
 }
 
 double VelodyneDecoder::most_packets_per_s() const {
-  return 2e6 / (kBlocks * model_.block_us);  // dual return
+  return most_packets(model_);
 }
 
 void VelodyneDecoder::reset() {
@@ -73,8 +100,7 @@ void VelodyneDecoder::forget() {
 }
 
 bool VelodyneDecoder::decode(const Packet& packet, Sweep& out) {
-  check_product(packet.data[1205]);
-  dual_ = packet.data[1204] == kDualReturn;
+  dual_ = marks_.returns_of(packet.data) == VelodyneReturns::dual;
   const std::int64_t past_hour_ns = std::int64_t{load_le<std::uint32_t>(packet.data + 1200)} * 1000;
   const std::int64_t time_ns = clock_.full_time_ns(past_hour_ns, packet.capture_ns, packet.received_ns);
   check_hour();
@@ -94,7 +120,7 @@ bool VelodyneDecoder::finish(Sweep& out) {
 
 VelodyneDecoder::Place VelodyneDecoder::place(std::int64_t time_ns) {
   if (!open_) return Place::next;
-  const bool endless = time_ns - start_ns_ > kMaxTurnNs || packet_times_ns_.size() >= kMaxPackets;
+  const bool endless = time_ns - start_ns_ > kMaxTurnNs || packet_times_ns_.size() >= max_packets_;
   if (std::llabs(time_ns - newest_ns_) > kMaxTurnNs || endless) return Place::jump;
   if (time_ns < start_ns_) return restart_.misfits() ? Place::jump : Place::late;
   if (time_ns > newest_ns_) {
@@ -132,46 +158,69 @@ void VelodyneDecoder::begin(std::int64_t time_ns) {
   start_ns_ = newest_ns_ = time_ns;
 }
 
+/// Blocks behind the last whole sequence are padding.
+int VelodyneDecoder::blocks_used() const {
+  const int sequence = model_.banks * (dual_ ? 2 : 1);
+  return kVelodyneBlocks / sequence * sequence;
+}
+
 int VelodyneDecoder::read_shots(const std::uint8_t* packet, std::int64_t time_ns) {
   const int step = dual_ ? 2 : 1;
   int count = 0;
-  for (int i = 0; i < kBlocks; i += step) {
-    const std::uint8_t* block = packet + static_cast<std::size_t>(i) * kBlockSize;
-    const std::uint8_t* second = dual_ ? block + kBlockSize : nullptr;
-    if (!is_block(block) || (dual_ && !is_block(second))) {
+  for (int i = 0; i < blocks_used(); i += step) {
+    const int bank = i / step % model_.banks;
+    const std::uint8_t* block = packet + static_cast<std::size_t>(i) * kVelodyneBlockSize;
+    const std::uint8_t* second = dual_ ? block + kVelodyneBlockSize : nullptr;
+    if (!is_block(block, bank) || (dual_ && !is_block(second, bank))) {
       state_.counters.invalid_columns += static_cast<std::uint64_t>(step);
       continue;
     }
-    const double after_us = (i / step) * model_.block_us;
-    shots_[static_cast<std::size_t>(count++)] = {block, second, time_ns + to_ns(after_us),
-                                                 load_le<std::uint16_t>(block + 2), 0};
+    const int sequence = i / (step * model_.banks);
+    shots_[static_cast<std::size_t>(count++)] = {
+        block, second, time_ns + to_ns(sequence * model_.sequence_us), bank, sequence, azimuth_of(block), 0};
   }
-  fill_gaps(count);
+  fill_gaps(count, time_ns);
   return count;
 }
 
-/// The azimuth turns steadily from block to block; where a gap is not that of a turning sensor (a block is
-/// missing, the field of view ends), the gap before stands in for it.
-void VelodyneDecoder::fill_gaps(int count) {
-  const int max_gap = static_cast<int>(kMaxTurnsPerSecond * kTurn * model_.block_us * 1e-6);
+/// The azimuth turns steadily from sequence to sequence; where a gap is not that of a turning sensor (the
+/// field of view ends), the gap before stands in for it.
+void VelodyneDecoder::fill_gaps(int count, std::int64_t time_ns) {
+  if (count > 0 &&
+      blocks_used() == model_.banks * (dual_ ? 2 : 1)) {  // one sequence: back to the packet before
+    const std::int64_t since_ns = time_ns - newest_ns_;
+    const int turned = (shots_[0].azimuth - azimuth_ + kTurn) % kTurn;
+    if (open_ && since_ns > 0)
+      note_gap(
+          static_cast<int>(std::lround(turned * model_.sequence_us * 1e3 / static_cast<double>(since_ns))));
+  }
   for (int i = 0; i < count; ++i) {
     Shot& shot = shots_[static_cast<std::size_t>(i)];
-    if (i + 1 < count) {
-      const int gap = (shots_[static_cast<std::size_t>(i + 1)].azimuth - shot.azimuth + kTurn) % kTurn;
-      if (gap <= max_gap) {
-        last_gap_ = gap;
-        gap_sum_ += gap;
-        ++gap_count_;
-      }
+    for (int k = i + 1; k < count; ++k) {
+      const Shot& next = shots_[static_cast<std::size_t>(k)];
+      if (next.bank != shot.bank) continue;
+      note_gap((next.azimuth - shot.azimuth + kTurn) % kTurn / (next.sequence - shot.sequence));
+      break;
     }
     shot.gap = last_gap_;
   }
 }
 
+void VelodyneDecoder::note_gap(int gap) {
+  if (gap > kMaxTurnsPerSecond * kTurn * model_.sequence_us * 1e-6) return;
+  last_gap_ = gap;
+  gap_sum_ += gap;
+  ++gap_count_;
+}
+
+/// The blocks of a sequence share its times.
 void VelodyneDecoder::add(const Shot& shot) {
   ++received_;
-  for (int firing = 0; firing < model_.firings_per_block; ++firing) {
-    const std::uint32_t index = builder_.add_time(shot.time_ns + to_ns(firing * model_.firing_us));
+  for (int firing = 0; firing < model_.firings; ++firing) {
+    const std::int64_t time_ns = shot.time_ns + to_ns(firing * model_.firing_us);
+    if (builder_.times() == 0 || time_ns != newest_time_ns_) builder_.add_time(time_ns);
+    newest_time_ns_ = time_ns;
+    const auto index = static_cast<std::uint32_t>(builder_.times() - 1);
     builder_.append(scratch_.data(), project(shot, shot.first, firing, index));
     if (shot.second != nullptr) builder_.append(scratch_.data(), project(shot, shot.second, firing, index));
   }
@@ -180,16 +229,17 @@ void VelodyneDecoder::add(const Shot& shot) {
 /// The returns of one firing sequence; of a second block, only those that differ from the first's.
 std::size_t VelodyneDecoder::project(const Shot& shot, const std::uint8_t* block, int firing,
                                      std::uint32_t time_index) {
-  const std::size_t lasers = 32 / static_cast<std::size_t>(model_.firings_per_block);
+  const std::size_t lasers = 32 / static_cast<std::size_t>(model_.firings);
   const std::size_t begin = static_cast<std::size_t>(firing) * lasers;
   std::size_t count = 0;
-  for (std::size_t i = begin; i < begin + lasers; ++i) {
-    const std::size_t at = 4 + 3 * i;
+  for (std::size_t k = begin; k < begin + lasers; ++k) {
+    const std::size_t at = 4 + 3 * k;
     const std::uint16_t range = load_le<std::uint16_t>(block + at);
     if (range == 0) continue;
     if (block == shot.second && range == load_le<std::uint16_t>(shot.first + at)) continue;
+    const std::size_t i = static_cast<std::size_t>(shot.bank) * 32 + k;
     const VelodyneLaser& laser = model_.lasers[i];
-    const double turned_deg = (shot.azimuth + shot.gap * (laser.firing_us / model_.block_us)) * 0.01;
+    const double turned_deg = (shot.azimuth + shot.gap * (laser.firing_us / model_.sequence_us)) * 0.01;
     const double azimuth = (turned_deg + laser.azimuth_deg) * kRadiansPerDegree;
     const double range_m = range * model_.range_unit_m;
     const double level_m = range_m * lasers_[i].cos_vertical;
@@ -201,27 +251,17 @@ std::size_t VelodyneDecoder::project(const Shot& shot, const std::uint8_t* block
 
 /// A turn has as many blocks as the mean azimuth gap says; less than half a packet missing is a whole turn.
 bool VelodyneDecoder::close(Sweep& out) {
-  const double expected =
+  const double sequences =
       gap_sum_ > 0 ? static_cast<double>(kTurn) * gap_count_ / static_cast<double>(gap_sum_) : kTurn;
+  const double expected = sequences * model_.banks;
   const double missing = expected - received_;
-  const double packet = kBlocks / (dual_ ? 2.0 : 1.0);
+  const double packet = blocks_used() / (dual_ ? 2.0 : 1.0);
   const bool complete = missing < packet / 2;
   state_.counters.columns += static_cast<std::uint64_t>(received_);
   if (whole_ && !complete) state_.counters.missing_columns += static_cast<std::uint64_t>(missing);
   const bool kept = builder_.close(received_ / expected, complete, out);
   forget();
   return kept;
-}
-
-void VelodyneDecoder::check_product(std::uint8_t product_id) {
-  if (product_checked_) return;
-  product_checked_ = true;
-  if (product_id == model_.product_id) return;
-  char text[160];
-  std::snprintf(text, sizeof text, "the packets' model byte is 0x%02X, that of a %s is 0x%02X; decoded as %s",
-                product_id, std::string(model_.name).c_str(), model_.product_id,
-                std::string(model_.name).c_str());
-  state_.warnings.emplace_back(text);
 }
 
 void VelodyneDecoder::check_hour() {

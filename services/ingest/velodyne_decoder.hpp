@@ -9,6 +9,7 @@
 #include "services/ingest/decoder.hpp"
 #include "services/ingest/hour_clock.hpp"
 #include "services/ingest/sweep_builder.hpp"
+#include "services/ingest/velodyne_marks.hpp"
 #include "services/ingest/velodyne_model.hpp"
 
 namespace gvom::ingest {
@@ -16,11 +17,14 @@ namespace gvom::ingest {
 /// A sweep is a turn, cut where the azimuth passes through 0. Axes: x forward (azimuth 0), y left, z up.
 class VelodyneDecoder final : public Decoder {
  public:
-  /// `state` must outlive the decoder.
-  VelodyneDecoder(const VelodyneModel& model, const SourceOptions& options, SourceState& state);
+  /// `marks` are what the packets must say of themselves. `state` must outlive the decoder.
+  VelodyneDecoder(VelodyneModel model, const VelodyneMarks& marks, const SourceOptions& options,
+                  SourceState& state);
 
   [[nodiscard]] bool recognises(const Packet& packet) const override;
   [[nodiscard]] std::string expects() const override;
+  void name_other(const Packet& packet, KindText& out) const override;
+  [[nodiscard]] std::string override_advice(const Packet& packet) const override;
   [[nodiscard]] std::uint64_t sensor_id(const Packet& packet) const override;
   [[nodiscard]] double most_packets_per_s() const override;
   bool decode(const Packet& packet, Sweep& out) override;
@@ -29,8 +33,6 @@ class VelodyneDecoder final : public Decoder {
   void set_time_hint(std::int64_t stamp_ns) override { clock_.hint(stamp_ns); }
 
  private:
-  static constexpr int kBlocks = 12;
-
   /// Where a packet stands against the open sweep; `jump` means that the sweep ends before it in any case.
   enum class Place { next, within, duplicate, late, jump };
 
@@ -39,12 +41,16 @@ class VelodyneDecoder final : public Decoder {
     const std::uint8_t* first;
     const std::uint8_t* second;  // null unless dual
     std::int64_t time_ns;
-    int azimuth;  // 1/100 degree
-    int gap;      // azimuth from here to the next block, 1/100 degree
+    int bank;
+    int sequence;  // in the packet
+    int azimuth;   // 1/100 degree
+    int gap;       // azimuth from here to the next sequence, 1/100 degree
   };
 
+  [[nodiscard]] int blocks_used() const;
   int read_shots(const std::uint8_t* packet, std::int64_t time_ns);
-  void fill_gaps(int count);
+  void fill_gaps(int count, std::int64_t time_ns);
+  void note_gap(int gap);
   Place place(std::int64_t time_ns);
   bool use(const Packet& packet, std::int64_t time_ns, bool may_cut, Sweep& out);
   void begin(std::int64_t time_ns);
@@ -52,33 +58,34 @@ class VelodyneDecoder final : public Decoder {
   std::size_t project(const Shot& shot, const std::uint8_t* block, int firing, std::uint32_t time_index);
   bool close(Sweep& out);
   void forget();
-  void check_product(std::uint8_t product_id);
   void check_hour();
 
   struct LaserTrigonometry {
     double cos_vertical, sin_vertical;
   };
 
-  const VelodyneModel& model_;
+  const VelodyneModel model_;
+  const VelodyneMarks marks_;
+  const std::size_t max_packets_;  // of a sweep
   SourceState& state_;
   SweepBuilder builder_;
   HourClock clock_;
   RestartDetector restart_;
-  std::array<LaserTrigonometry, 32> lasers_{};
-  std::array<Shot, kBlocks> shots_{};
+  std::vector<LaserTrigonometry> lasers_;
+  std::array<Shot, kVelodyneBlocks> shots_{};
   std::array<Return, 64> scratch_{};           // the returns of one firing
   std::vector<std::int64_t> packet_times_ns_;  // of the open sweep
   bool open_ = false;
-  bool dual_ = false;           // of the packet at hand
-  std::int64_t start_ns_ = 0;   // packet in which the open sweep began
-  std::int64_t newest_ns_ = 0;  // newest packet
-  int azimuth_ = 0;             // newest block
+  bool dual_ = false;                // of the packet at hand
+  std::int64_t start_ns_ = 0;        // packet in which the open sweep began
+  std::int64_t newest_ns_ = 0;       // newest packet
+  int azimuth_ = 0;                  // newest block
+  std::int64_t newest_time_ns_ = 0;  // newest time of the sensor in the sweep
   int last_gap_ = 0;
   std::int64_t gap_sum_ = 0;  // of the open sweep's blocks
   int gap_count_ = 0;
   int received_ = 0;    // shots in the open sweep
   bool whole_ = false;  // a sweep was closed before the open one: it was seen from its beginning
-  bool product_checked_ = false;
   bool hour_checked_ = false;
 };
 

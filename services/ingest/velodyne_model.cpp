@@ -1,18 +1,19 @@
 #include "services/ingest/velodyne_model.hpp"
 
+#include <array>
 #include <cstddef>
 
 namespace gvom::ingest {
 namespace {
 
-VelodyneModel make_vlp16() {
-  constexpr double kVerticalDeg[16] = {-15, 1, -13, 3, -11, 5, -9, 7, -7, 9, -5, 11, -3, 13, -1, 15};
-  VelodyneModel model{"VLP-16", 0x22, 0.002, 110.592, 2, 55.296, {}};
+/// A VLP-16, or a Puck Hi-Res: the same but for its angles.
+VelodyneModel make_puck(std::string_view name, std::uint8_t byte,
+                        const std::array<double, 16>& vertical_deg) {
+  VelodyneModel model{name, byte, 0.002, 110.592, 1, 2, 55.296, {}};
   for (std::size_t i = 0; i < 32; ++i) {
-    const std::size_t laser = i % 16;
-    const int firing = static_cast<int>(i / 16);
-    model.lasers[i] = {kVerticalDeg[laser], 0.0,
-                       firing * model.firing_us + 2.304 * static_cast<double>(laser), firing};
+    const auto firing = static_cast<double>(i / 16);
+    const auto laser = static_cast<double>(i % 16);
+    model.lasers.push_back({vertical_deg[i % 16], 0, firing * model.firing_us + 2.304 * laser});
   }
   return model;
 }
@@ -25,9 +26,9 @@ VelodyneModel make_vlp32c() {
   constexpr double kAzimuthDeg[32] = {1.4,  -4.2, 1.4,  -1.4, 1.4,  -1.4, 4.2,  -1.4, 1.4,  -4.2, 1.4,
                                       -1.4, 4.2,  -1.4, 4.2,  -1.4, 1.4,  -4.2, 1.4,  -4.2, 4.2,  -1.4,
                                       1.4,  -1.4, 1.4,  -1.4, 1.4,  -4.2, 4.2,  -1.4, 1.4,  -1.4};
-  VelodyneModel model{"VLP-32C", 0x28, 0.004, 55.296, 1, 55.296, {}};
+  VelodyneModel model{"VLP-32C", 0x28, 0.004, 55.296, 1, 1, 55.296, {}};
   for (std::size_t i = 0; i < 32; ++i) {
-    model.lasers[i] = {kVerticalDeg[i], kAzimuthDeg[i], 2.304 * static_cast<double>(i / 2), 0};
+    model.lasers.push_back({kVerticalDeg[i], kAzimuthDeg[i], 2.304 * static_cast<double>(i / 2)});
   }
   return model;
 }
@@ -37,15 +38,45 @@ VelodyneModel make_hdl32() {
                                        -25.33, -4.00, -24.00, -2.67, -22.67, -1.33, -21.33, 0.00,
                                        -20.00, 1.33,  -18.67, 2.67,  -17.33, 4.00,  -16.00, 5.33,
                                        -14.67, 6.67,  -13.33, 8.00,  -12.00, 9.33,  -10.67, 10.67};
-  VelodyneModel model{"HDL-32", 0x21, 0.002, 46.080, 1, 46.080, {}};
+  VelodyneModel model{"HDL-32", 0x21, 0.002, 46.080, 1, 1, 46.080, {}};
   for (std::size_t i = 0; i < 32; ++i) {
-    model.lasers[i] = {kVerticalDeg[i], 0.0, 1.152 * static_cast<double>(i), 0};
+    model.lasers.push_back({kVerticalDeg[i], 0, 1.152 * static_cast<double>(i)});
   }
   return model;
 }
 
-const std::array<VelodyneModel, 3>& models() {
-  static const std::array<VelodyneModel, 3> all{make_vlp16(), make_vlp32c(), make_hdl32()};
+/// User manual 63-9483: eight lasers fire at once, every 2.665 us, with a pause of as long after the eighth
+/// such group; 20 times that is a sequence.
+VelodyneModel make_vls128() {
+  constexpr double kVerticalDeg[128] = {
+      -11.742, -1.99, 3.4,     -5.29, -0.78,   4.61,   -4.08,   1.31,  -6.5,  -1.11,   4.28,  -4.41,  0.1,
+      6.48,    -3.2,  2.19,    -3.86, 1.53,    -9.244, -1.77,   2.74,  -5.95, -0.56,   4.83,  -2.98,  2.41,
+      -6.28,   -0.89, 3.62,    -5.07, 0.32,    7.58,   -0.34,   5.18,  -3.64, 1.75,    -25.0, -2.43,  2.96,
+      -5.73,   0.54,  9.7,     -2.76, 2.63,    -7.65,  -1.55,   3.84,  -4.85, 3.18,    -5.51, -0.12,  5.73,
+      -4.3,    1.09,  -16.042, -2.21, 4.06,    -4.63,  0.76,    15.0,  -3.42, 1.97,    -6.85, -1.33,  -5.62,
+      -0.23,   5.43,  -3.53,   0.98,  -19.582, -2.32,  3.07,    -4.74, 0.65,  11.75,   -2.65, 1.86,   -7.15,
+      -1.44,   3.95,  -2.1,    3.29,  -5.4,    -0.01,  4.5,     -4.19, 1.2,   -13.565, -1.22, 4.17,   -4.52,
+      0.87,    6.08,  -3.31,   2.08,  -6.65,   1.42,   -10.346, -1.88, 3.51,  -6.06,   -0.67, 4.72,   -3.97,
+      2.3,     -6.39, -1.0,    4.39,  -5.18,   0.21,   6.98,    -3.09, 4.98,  -3.75,   1.64,  -8.352, -2.54,
+      2.85,    -5.84, -0.45,   8.43,  -2.87,   2.52,   -6.17,   -1.66, 3.73,  -4.96,   0.43};
+  constexpr double kAzimuthDeg[8] = {6.354, 4.548, 2.732, 0.911, -0.911, -2.732, -4.548, -6.354};
+  constexpr double kGroup_us = 2.665;
+  VelodyneModel model{"VLS-128", 0xA1, 0.004, 20 * kGroup_us, 4, 1, 20 * kGroup_us, {}};
+  for (std::size_t i = 0; i < 128; ++i) {
+    const std::size_t group = i / 8;
+    model.lasers.push_back(
+        {kVerticalDeg[i], kAzimuthDeg[i % 8], kGroup_us * static_cast<double>(group + group / 8)});
+  }
+  return model;
+}
+
+const std::vector<VelodyneModel>& models() {
+  static const std::vector<VelodyneModel> all{
+      make_puck("VLP-16", 0x22, {-15, 1, -13, 3, -11, 5, -9, 7, -7, 9, -5, 11, -3, 13, -1, 15}),
+      make_puck(
+          "Puck-Hi-Res", 0x24,
+          {-10, 0.667, -8.667, 2, -7.333, 3.333, -6, 4.667, -4.667, 6, -3.333, 7.333, -2, 8.667, -0.667, 10}),
+      make_vlp32c(), make_hdl32(), make_vls128()};
   return all;
 }
 

@@ -1,31 +1,33 @@
 // The lasers of the Velodyne sensors, as their manuals state them.
 #pragma once
 
-#include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace gvom::ingest {
 
 struct VelodyneLaser {
   double vertical_deg = 0;
   double azimuth_deg = 0;  ///< Added to the block's azimuth.
-  double firing_us = 0;    ///< After the block's first laser.
-  int firing = 0;          ///< Which of the block's firing sequences.
+  double firing_us = 0;    ///< After the sequence's first laser.
 };
 
+/// A sequence is a block or, of sensors with several banks of 32 lasers, a block of each bank.
 struct VelodyneModel {
   std::string_view name;
-  std::uint8_t product_id;  ///< The model byte of its packets; some firmware sends another.
-  double range_unit_m;
-  double block_us;                       ///< From a block's first laser to the next block's.
-  int firings_per_block;                 ///< Times that all lasers fire within a block.
-  double firing_us;                      ///< From one of these to the next.
-  std::array<VelodyneLaser, 32> lasers;  ///< The 32 measurements of a block, in order.
+  std::optional<std::uint8_t> model_byte;  ///< Of its packets; some firmware sends another.
+  double range_unit_m = 0.002;
+  double sequence_us = 0;             ///< From a sequence's first laser to the next one's.
+  int banks = 1;                      ///< 1, or 4 (VLS-128).
+  int firings = 1;                    ///< Times that all lasers fire within a sequence.
+  double firing_us = 0;               ///< From one of these to the next.
+  std::vector<VelodyneLaser> lasers;  ///< The 32 measurements of a block, in order, bank after bank.
 };
 
-/// VLP-16, VLP-32C or HDL-32; null for any other name.
+/// Null for a name that is not one of known_velodyne_models().
 const VelodyneModel* find_velodyne_model(std::string_view name);
 
 /// The names, for messages.

@@ -14,8 +14,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const ingest::SourceOptions options{(how & 8) != 0 ? 0.0 : 0.5, (how & 16) != 0 ? 5U : 2000U};
   auto state = std::make_unique<ingest::SourceState>();
   auto packets = std::make_unique<FuzzPackets>(input, kPacketBytes, (how & 4) != 0);
-  auto decoder = std::make_unique<ingest::VelodyneDecoder>(*ingest::find_velodyne_model(kModels[how & 3]),
-                                                           options, *state);
+  const ingest::VelodyneModel& model = *ingest::find_velodyne_model(kModels[how & 3]);
+  auto decoder = std::make_unique<ingest::VelodyneDecoder>(
+      model, ingest::VelodyneMarks{model.model_byte, model.banks, std::nullopt}, options, *state);
   play(input, std::move(state), std::move(packets), std::move(decoder), options.max_returns);
   return 0;
 }

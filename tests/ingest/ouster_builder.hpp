@@ -20,6 +20,7 @@ struct OusterSensor {
   int beams = 2;
   int columns = 16;
   int columns_per_packet = 4;
+  std::uint64_t serial = 0;  ///< 0: neither the metadata nor its packets tell it.
 
   [[nodiscard]] std::string json() const {
     return R"({"beam_altitude_angles": )" + altitudes + R"(, "beam_azimuth_angles": )" + azimuths +
@@ -27,7 +28,7 @@ struct OusterSensor {
            transform + R"(, "data_format": {"columns_per_frame": )" + std::to_string(columns) +
            R"(, "columns_per_packet": )" + std::to_string(columns_per_packet) + R"(, "pixels_per_column": )" +
            std::to_string(beams) + R"(, "column_window": )" + window + R"(, "udp_profile_lidar": ")" +
-           profile + "\"}}";
+           profile + "\"}" + (serial != 0 ? R"(, "prod_sn": ")" + std::to_string(serial) + "\"" : "") + "}";
   }
 };
 
@@ -70,6 +71,8 @@ inline ByteVector ouster_packet(const OusterSensor& sensor, int frame, const std
   if (!legacy) {
     put_le(out, std::uint16_t{1});
     put_le(out, static_cast<std::uint16_t>(frame));
+    out.resize(7);
+    put_le(out, sensor.serial);
     out.resize(32);
   }
   for (const Column& column : columns) {

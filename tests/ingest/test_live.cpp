@@ -156,3 +156,45 @@ TEST_CASE("packets that the kernel had no room for are counted") {
   REQUIRE(source->next(sweep, std::chrono::milliseconds(100)).has_value());
   CHECK(source->counters().kernel_drops == kSent - received);
 }
+
+TEST_CASE("live, packets that prove to be of another kind of sensor are counted and named, and ours go on") {
+  TemporaryFolder folder;
+  OusterSensor ours;
+  ours.profile = "RNG15_RFL8_NIR8";
+  ours.serial = 5;
+  OusterSensor other = ours;
+  other.serial = 6;
+  const std::string meta = write_text(folder.path() + "/meta.json", ours.json());
+  const std::uint16_t port = free_port();
+  auto source = open("ouster-udp:" + std::to_string(port) + "?bind=127.0.0.1&meta=" + meta);
+  const Socket sender;
+  for (int frame = 1; frame <= 3; ++frame)
+    for (int column = 0; column < 16; column += 4) sender.send(port, plain_packet(other, frame, column));
+  Sweep sweep;
+  CHECK(source->next(sweep, std::chrono::milliseconds(20)).value() == SourceEvent::kIdle);
+  CHECK(source->counters().second_sensor_packets == 12);
+  CHECK(source->counters().second_kind.data() == std::string("serial number 6, the metadata is of 5"));
+  for (int column = 0; column < 16; column += 4) sender.send(port, plain_packet(ours, 1, column));
+  REQUIRE(source->next(sweep, kWait).value() == SourceEvent::kSweep);
+  CHECK(sweep.returns.size() == 32);
+}
+
+TEST_CASE("live, a Velodyne of another model is named, and its packets are not used") {
+  const std::uint16_t port = free_port();
+  auto source = open("velodyne-udp:" + std::to_string(port) + "?bind=127.0.0.1&model=VLP-16");
+  const Socket sender;
+  ByteVector packet(1206);
+  for (std::size_t block = 0; block < 12; ++block) {
+    packet[100 * block] = 0xFF;
+    packet[100 * block + 1] = static_cast<std::uint8_t>(0xEE - 0x11 * (block % 4));
+  }
+  packet[1204] = 0x37;
+  packet[1205] = 0xA1;
+  sender.send(port, packet);
+  Sweep sweep;
+  CHECK(source->next(sweep, std::chrono::milliseconds(20)).value() == SourceEvent::kIdle);
+  CHECK(source->counters().foreign_packets == 1);
+  CHECK(source->counters().foreign_kind.data() == std::string("a VLS-128, model byte 0xA1"));
+  REQUIRE(source->warnings().size() == 1);
+  CHECK(source->warnings()[0].find("packets of another sensor (a VLS-128") == 0);
+}

@@ -28,6 +28,11 @@ class Stream {
     return *this;
   }
 
+  /// Why it can't be opened with the metadata of `sensor`.
+  std::string refusal(const OusterSensor& sensor) {
+    const std::string meta = write_text(folder_.path() + "/meta.json", sensor.json());
+    return open_error("ouster:" + pcap_.write() + "?meta=" + meta);
+  }
   std::vector<Sweep> play(double min_fraction = 0.5, std::size_t max_returns = 1000,
                           const std::string& more = "") {
     const std::string meta = write_text(folder_.path() + "/meta.json", sensor_.json());
@@ -35,6 +40,7 @@ class Stream {
     return all_sweeps(*source_);
   }
   [[nodiscard]] const SourceCounters& counters() const { return source_->counters(); }
+  [[nodiscard]] const std::vector<std::string>& warnings() const { return source_->warnings(); }
   [[nodiscard]] const OusterSensor& sensor() const { return sensor_; }
 
  private:
@@ -254,4 +260,51 @@ TEST_CASE("packets that were captured in part are counted") {
   REQUIRE(sweeps.size() == 1);
   CHECK(sweeps[0].returns.size() == 24);
   CHECK(stream.counters().truncated_packets == 1);
+}
+
+namespace {
+
+OusterSensor with_serial(std::uint64_t serial) {
+  OusterSensor sensor;
+  sensor.profile = "RNG19_RFL8_SIG16_NIR16";
+  sensor.serial = serial;
+  return sensor;
+}
+
+}  // namespace
+
+TEST_CASE("packets of another serial number than the metadata's are refused, naming both") {
+  Stream stream(with_serial(122201000998));
+  stream.whole_frame(1);
+  const std::string error = stream.refusal(with_serial(992210000957));
+  INFO(error);
+  CHECK(error.find("the packets are of another sensor (serial number 122201000998, the metadata is of "
+                   "992210000957)") != std::string::npos);
+  CHECK(error.find("serial=122201000998") != std::string::npos);
+}
+
+TEST_CASE("a serial number that is given in the source is the one that packets must have") {
+  Stream stream(with_serial(5));
+  const auto sweeps = stream.whole_frame(1).play(0.5, 1000, "&serial=5");
+  CHECK(sweeps.size() == 1);
+  OusterSensor other = with_serial(6);
+  Stream replaced(with_serial(7));
+  for (int column = 0; column < 16; column += 4) replaced.raw(frame(plain_packet(other, 1, column)));
+  CHECK(replaced.play(0.5, 1000, "&serial=6").size() == 1);
+}
+
+TEST_CASE("of two sensors behind one address, the one of the metadata is mapped, and the other is told of") {
+  Stream stream(with_serial(5));
+  const OusterSensor other = with_serial(6);
+  for (int column = 0; column < 16; column += 4) {
+    stream.raw(frame(plain_packet(other, 9, column, 7000)));
+    stream.packet(1, column);
+  }
+  const auto sweeps = stream.play();
+  REQUIRE(sweeps.size() == 1);
+  CHECK(sweeps[0].complete);
+  CHECK(sweeps[0].returns.size() == 32);
+  CHECK(stream.counters().second_sensor_packets == 4);
+  REQUIRE(stream.warnings().size() == 1);
+  CHECK(stream.warnings()[0].find("serial number 6, the metadata is of 5") != std::string::npos);
 }

@@ -142,7 +142,7 @@ TEST_CASE("HDL-32: whole turns of 0.11 s over flat ground") {
   CHECK(sweeps[0].stamp_ns / 1'000'000'000 == 1319768035);  // the hour of the capture, the sensor's minutes
 }
 
-TEST_CASE("VLP-16: position packets and a wrong model byte do no harm") {
+TEST_CASE("VLP-16: position packets do no harm; a wrong model byte is taken where the source names it") {
   const auto data = recordings();
   if (!data) return;
   auto indoors = open("velodyne:" + *data + "/velodyne/vlp16_gps.pcap?model=VLP-16");
@@ -152,13 +152,35 @@ TEST_CASE("VLP-16: position packets and a wrong model byte do no harm") {
   CHECK(indoors->counters().foreign_packets == 57);
   CHECK(std::count_if(turns.begin(), turns.end(), [](const Sweep& s) { return s.complete; }) == 3);
 
-  auto outdoors = open("velodyne:" + *data + "/velodyne/vlp16_outdoor.pcap?model=VLP-16");
+  const std::string wrong_byte = "velodyne:" + *data + "/velodyne/vlp16_outdoor.pcap?model=VLP-16";
+  CHECK(open_error(wrong_byte).find("an HDL-32, model byte 0x21") != std::string::npos);
+  auto outdoors = open(wrong_byte + "&model_byte=0x21");
   const auto sweeps = all_sweeps(*outdoors);
   REQUIRE(sweeps.size() == 1);
   CHECK_FALSE(sweeps[0].complete);  // the recording ends at 290 degrees
   CHECK(farthest_m(sweeps[0]) == Approx(109.8).margin(0.1));
-  REQUIRE(outdoors->warnings().size() == 1);
-  CHECK(outdoors->warnings()[0].find("model byte is 0x21") != std::string::npos);
+  CHECK(outdoors->warnings().empty());
+}
+
+TEST_CASE("VLS-128: both halves of a turn and more; every other model refuses it by name") {
+  const auto data = recordings();
+  if (!data) return;
+  const std::string uri = "velodyne:" + *data + "/field/velodyne_vls128/vls128.pcap?model=";
+  for (const char* model : {"VLP-16", "Puck-Hi-Res", "VLP-32C", "HDL-32"}) {
+    CHECK(open_error(uri + model).find("of another sensor (a VLS-128, model byte 0xA1)") !=
+          std::string::npos);
+  }
+  auto source = open(uri + "VLS-128");
+  const auto sweeps = all_sweeps(*source);
+  REQUIRE(sweeps.size() == 2);
+  CHECK(source->counters().packets == 700);
+  CHECK(source->counters().invalid_columns == 0);
+  CHECK(sweeps[0].times_ns.size() + sweeps[1].times_ns.size() == 2100);
+  CHECK(sweeps[0].returns.size() == 135541);
+  CHECK(sweeps[1].returns.size() == 105203);
+  CHECK_FALSE(sweeps[0].complete);
+  CHECK_FALSE(sweeps[1].complete);
+  CHECK(ground_z_m(sweeps[1]) == Approx(-1.85).margin(0.1));
 }
 
 TEST_CASE("KITTI: ten sweeps with the stamps of times.txt, the sensor 1.73 m above the street") {

@@ -109,6 +109,20 @@ TEST_CASE("each fault is told in words and numbers") {
     counters.foreign_packets += 60;
     counters.foreign_size = 1206;
   });
+  check_told("packets of another model, 1206 bytes each (a VLS-128, model byte 0xA1): 600/s not used",
+             [](SourceCounters& counters) {
+               counters.packets += 60;
+               counters.foreign_packets += 60;
+               counters.foreign_size = 1206;
+               counters.foreign_kind = {"a VLS-128, model byte 0xA1"};
+             });
+  check_told("packets of a second sensor at 10.0.0.2 (serial number 6): 120/s not used",
+             [](SourceCounters& counters) {
+               counters.packets += 12;
+               counters.second_sensor_packets += 12;
+               counters.second_ipv4 = {10, 0, 0, 2};
+               counters.second_kind = {"serial number 6"};
+             });
   check_told("garbage: 600 packets/s not used", [](SourceCounters& counters) {
     counters.packets += 60;
     counters.foreign_packets += 60;

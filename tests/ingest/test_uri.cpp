@@ -25,12 +25,16 @@ TEST_CASE("URIs that cannot be right are refused with the reason") {
   contains("ouster:a.pcap?meta", "expected key=value, got 'meta'");
   contains("ouster:a.pcap?meta=", "expected key=value");
   contains("ouster:a.pcap?meta=a&meta=b", "'meta' is given twice");
-  contains("ouster:a.pcap?metadata=a", "unknown option 'metadata' (ouster takes meta, port)");
+  contains("ouster:a.pcap?metadata=a", "unknown option 'metadata' (ouster takes meta, port, serial)");
   contains("rosbag:a", "unknown scheme 'rosbag'");
   contains("ouster:a.pcap", "needs meta=FILE.json");
-  contains("velodyne:a.pcap", "needs model=M (VLP-16, VLP-32C, HDL-32)");
+  contains("velodyne:a.pcap", "needs model=M (VLP-16, Puck-Hi-Res, VLP-32C, HDL-32, VLS-128)");
   contains("velodyne:a.pcap?model=HDL-64", "unknown model 'HDL-64'");
   contains("velodyne:a.pcap?model=VLP-16&port=0", "port '0' is not a UDP port");
+  contains("ouster:a.pcap?meta=a&serial=x", "a: cannot read the sensor's metadata");
+  contains("velodyne:a.pcap?model=VLP-16&model_byte=", "expected key=value");
+  contains("velodyne:a.pcap?model=VLP-16&model_byte=256",
+           "model_byte '256' is not a whole number of at most 255");
   contains("velodyne-udp:70000?model=VLP-16", "'70000' is not a UDP port");
   contains("velodyne-udp:2368?model=VLP-16&bind=nonsense", "'nonsense' is not an IPv4 address");
   contains("scans:a?t=1", "unknown option 't' (scans takes none)");

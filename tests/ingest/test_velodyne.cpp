@@ -41,12 +41,12 @@ ByteVector velodyne_packet(const std::vector<Shot>& blocks, std::uint32_t time_u
 
 /// A VLP-16 at 10 turns a second, 39.8 hundredths of a degree a block; every laser 0 returns at 2 m. Block
 /// `n` counts from azimuth 0.
-ByteVector turning_packet(int first_block, std::uint32_t start_us = 0, int mode = 0x37) {
+ByteVector turning_packet(int first_block, std::uint32_t start_us = 0, int mode = 0x37, int product = 0x22) {
   const int step = mode == 0x39 ? 2 : 1;
   std::vector<Shot> blocks;
   for (int i = 0; i < 12; ++i) blocks.push_back({(first_block + i / step) * 398 / 10 % 36000, 0, 1000});
   return velodyne_packet(blocks, start_us + static_cast<std::uint32_t>(std::lround(first_block * 110.592)),
-                         mode);
+                         mode, product);
 }
 
 struct Played {
@@ -60,7 +60,7 @@ Played play(const std::vector<ByteVector>& packets, const std::string& model = "
   TemporaryFolder folder;
   PcapWriter pcap(folder.path() + "/velodyne.pcap");
   for (const ByteVector& packet : packets) pcap.add(frame(packet, {1, 2368, 1}), capture_ns);
-  auto source = open("velodyne:" + pcap.write() + "?model=" + model, {min_fraction, 100000});
+  auto source = open("velodyne:" + pcap.write() + "?model=" + model, {min_fraction, 200000});
   Played out;
   out.sweeps = all_sweeps(*source);
   out.counters = source->counters();
@@ -87,10 +87,35 @@ void check_polar(const Return& r, double range_m, double azimuth_deg, double ver
   CHECK(r.z_m == Approx(range_m * std::sin(vertical_deg * kRadians)).margin(1e-9));
 }
 
-std::vector<ByteVector> turn(int turns, std::uint32_t start_us = 0) {
+std::vector<ByteVector> turn(int turns, std::uint32_t start_us = 0, int mode = 0x37, int product = 0x22) {
   std::vector<ByteVector> packets;
-  for (int block = 0; block < 905 * turns; block += 12) packets.push_back(turning_packet(block, start_us));
+  const int step = mode == 0x39 ? 6 : 12;
+  for (int block = 0; block < 905 * turns; block += step)
+    packets.push_back(turning_packet(block, start_us, mode, product));
   return packets;
+}
+
+/// Packets whose blocks are flagged FFEE, FFDD ...: a cycle of `banks`.
+std::vector<ByteVector> flagged(std::vector<ByteVector> packets, std::size_t banks) {
+  constexpr std::uint8_t kFlags[4] = {0xEE, 0xDD, 0xCC, 0xBB};
+  for (ByteVector& packet : packets)
+    for (std::size_t block = 0; block < 12; ++block) packet[block * 100 + 1] = kFlags[block % banks];
+  return packets;
+}
+
+std::string refusal(const std::vector<ByteVector>& packets, const std::string& model) {
+  TemporaryFolder folder;
+  PcapWriter pcap(folder.path() + "/velodyne.pcap");
+  for (const ByteVector& packet : packets) pcap.add(frame(packet, {1, 2368, 1}));
+  return open_error("velodyne:" + pcap.write() + "?model=" + model);
+}
+
+void check_refused(const std::vector<ByteVector>& packets, const std::string& model, const std::string& why) {
+  const std::string error = refusal(packets, model);
+  INFO(model << ": " << error);
+  CHECK(error.find("velodyne.pcap: the packets are of another sensor (" + why + ")") != std::string::npos);
+  CHECK(error.find("the source says " + model.substr(0, model.find('&')) + ": packets of") !=
+        std::string::npos);
 }
 
 }  // namespace
@@ -233,4 +258,107 @@ TEST_CASE("a recording that is played again and again is taken up again") {
   const auto played = play(packets);
   CHECK(played.sweeps.size() == 4);
   CHECK(played.counters.packets == packets.size());
+}
+
+TEST_CASE("packets of another model are refused, naming what they are") {
+  check_refused(turn(1, 0, 0x37, 0x21), "VLP-16", "an HDL-32, model byte 0x21");
+  check_refused(turn(1, 0, 0x37, 0x24), "VLP-16", "a Puck Hi-Res, model byte 0x24");
+  check_refused(turn(1, 0, 0x39, 0x22), "VLP-32C", "a VLP-16, model byte 0x22");
+  check_refused(turn(1, 0, 0x38, 0x28), "HDL-32", "a VLP-32C, model byte 0x28");
+  check_refused(turn(1, 0, 0x37, 0x77), "VLP-16", "no sensor that is known, model byte 0x77");
+  for (const char* model : {"VLP-16", "VLP-32C", "HDL-32"}) {
+    check_refused(flagged(turn(1, 0, 0x37, 0xA1), 4), model, "a VLS-128, model byte 0xA1");
+    check_refused(flagged(turn(1, 0, 0x37, 0x22), 2), model, "an HDL-64E, blocks DDFF");
+  }
+}
+
+TEST_CASE("block flags prove a model whatever the byte says; a return mode that is not known is refused") {
+  check_refused(flagged(turn(1), 4), "VLP-16", "a VLS-128, blocks BBFF, but model byte 0x22");
+  check_refused(turn(1, 0, 0x3A), "VLP-16", "return mode 0x3A, neither 0x37, 0x38 nor 0x39");
+  check_refused(turn(1, 0, 0x00), "VLP-16", "return mode 0x00, neither 0x37, 0x38 nor 0x39");
+}
+
+TEST_CASE("a wrong model byte is taken where the source names it") {
+  const auto packets = turn(2, 0, 0x37, 0x21);
+  CHECK(refusal(packets, "VLP-16").find("model_byte=0x21") != std::string::npos);
+  const auto played = play(packets, "VLP-16&model_byte=0x21");
+  CHECK(played.sweeps.size() == 2);
+  CHECK(played.warnings.empty());
+  CHECK(play(packets, "VLP-16&model_byte=33").sweeps.size() == 2);
+  check_refused(turn(1), "VLP-16&model_byte=0x21", "a VLP-16, model byte 0x22");
+  CHECK(refusal(packets, "VLP-16&model_byte=0x100").find("model_byte '0x100' is not a whole number") !=
+        std::string::npos);
+}
+
+TEST_CASE("packets of firmware without mode and model byte are read as the source says") {
+  const auto single = turn(2, 0, 0x00, 0x00);
+  CHECK(refusal(single, "VLP-16").find("model_byte=0x00&returns=single (or dual)") != std::string::npos);
+  CHECK(play(single, "VLP-16&model_byte=0x00&returns=single").sweeps.size() == 2);
+  std::vector<ByteVector> dual = turn(2, 0, 0x39, 0x22);
+  for (ByteVector& packet : dual) packet[1204] = 0;
+  const auto read = play(dual, "VLP-16&returns=dual");
+  const auto told = play(turn(2, 0, 0x39, 0x22));
+  REQUIRE(read.sweeps.size() == 2);
+  CHECK(read.sweeps[0].returns.size() == told.sweeps[0].returns.size());
+  CHECK(refusal(dual, "VLP-16&returns=both").find("returns 'both' is not single or dual") !=
+        std::string::npos);
+}
+
+TEST_CASE("of two models in one recording, the one that is asked for is mapped, and the other is told of") {
+  const auto ours = turn(2);
+  const auto others = flagged(turn(2, 0, 0x37, 0xA1), 4);
+  std::vector<ByteVector> mixed{others[0], others[1]};
+  for (std::size_t i = 0; i < ours.size(); ++i) {
+    mixed.push_back(ours[i]);
+    mixed.push_back(others[i]);
+  }
+  const auto played = play(mixed);
+  const auto alone = play(ours);
+  REQUIRE(played.sweeps.size() == alone.sweeps.size());
+  CHECK(played.sweeps[0].returns.size() == alone.sweeps[0].returns.size());
+  CHECK(played.counters.foreign_packets == others.size() + 2);
+  REQUIRE(played.warnings.size() == 1);
+  CHECK(played.warnings[0].find("packets of another sensor (a VLS-128, model byte 0xA1) come too") == 0);
+}
+
+TEST_CASE("VLS-128: four banks of one azimuth are a sequence; each laser has its angles and its moment") {
+  // Laser 69, the sixth of the third bank, fires in the ninth group, one slot later for the pause: 9 of 20.
+  std::vector<Shot> blocks(12);
+  for (int i = 0; i < 12; ++i)
+    blocks[static_cast<std::size_t>(i)] = {1000 + 20 * (i / 4), 5, i == 6 ? 2500 : 0};
+  const auto packets = flagged({velodyne_packet(blocks, 0, 0x37, 0xA1)}, 4);
+  const auto played = play(packets, "VLS-128", 0.0);
+  REQUIRE(played.sweeps.size() == 1);
+  REQUIRE(played.sweeps[0].returns.size() == 1);
+  check_polar(played.sweeps[0].returns[0], 10, 10.2 + 0.2 * 9 / 20 - 2.732, -19.582);
+  REQUIRE(played.sweeps[0].times_ns.size() == 3);
+  CHECK(played.sweeps[0].returns[0].time_index == 1);
+  CHECK(played.sweeps[0].times_ns[1] - played.sweeps[0].times_ns[0] == 53300);
+  CHECK(played.counters.invalid_columns == 0);
+}
+
+TEST_CASE("VLS-128 in dual return mode: eight blocks are a sequence, the last four of a packet are padding") {
+  std::vector<ByteVector> packets;
+  for (int i = 0; i < 1900; ++i) {  // 0.2 degrees a sequence
+    std::vector<Shot> blocks(12, Shot{0, 0, 0});
+    for (std::size_t k = 0; k < 8; ++k) blocks[k] = {i * 20 % 36000, 7, k % 2 == 0 ? 1000 : 1500};
+    ByteVector packet = velodyne_packet(blocks, static_cast<std::uint32_t>(i * 53.3), 0x39, 0xA1);
+    for (std::size_t k = 0; k < 12; ++k)
+      packet[k * 100 + 1] = k < 8 ? static_cast<std::uint8_t>(0xEE - 0x11 * (k / 2)) : 0;
+    packets.push_back(packet);
+  }
+  const auto played = play(packets, "VLS-128");
+  REQUIRE(played.sweeps.size() == 1);
+  CHECK(played.sweeps[0].complete);
+  CHECK(played.sweeps[0].returns.size() == 1800 * 8);
+  CHECK(played.counters.invalid_columns == 0);
+  // Laser 39, of the second bank, fires fifth: its slot is 4 of 20.
+  check_polar(played.sweeps[0].returns[1000 * 8 + 2], 4, 200 + 0.2 * 4 / 20 - 6.354, -5.73);
+  CHECK(played.sweeps[0].returns[1000 * 8 + 7].time_index == 1000);
+}
+
+TEST_CASE("Puck Hi-Res: a VLP-16 whose lasers are 1.33 degrees apart") {
+  check_polar(one_return("Puck-Hi-Res", {9000, 0, 5000}, 0, 0x24), 10, 90, -10);
+  check_polar(one_return("Puck-Hi-Res", {1000, 31, 5000}, 40, 0x24), 10,
+              10 + 0.4 * (55.296 + 34.56) / 110.592, 10);
 }

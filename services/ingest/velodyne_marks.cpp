@@ -1,0 +1,87 @@
+#include "services/ingest/velodyne_marks.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <iterator>
+
+#include "services/ingest/bytes.hpp"
+
+namespace gvom::ingest {
+namespace {
+
+constexpr std::size_t kModeAt = 1204;
+constexpr std::size_t kModelAt = 1205;
+
+struct KnownByte {
+  std::uint8_t byte;
+  const char* sensor;
+};
+
+// The maker's manuals; what can't be decoded is still named.
+constexpr KnownByte kModels[] = {{0x21, "an HDL-32"},     {0x22, "a VLP-16"},  {0x23, "a VLP-32A or B"},
+                                 {0x24, "a Puck Hi-Res"}, {0x28, "a VLP-32C"}, {0x31, "a Velarray"},
+                                 {0xA1, "a VLS-128"}};
+
+/// How many banks the flags of its blocks prove; 0: not one block has a flag.
+int banks_of(const std::uint8_t* packet) {
+  int banks = 0;
+  for (int i = 0; i < kVelodyneBlocks; ++i) {
+    const auto bank = velodyne_bank(packet + static_cast<std::size_t>(i) * kVelodyneBlockSize);
+    if (bank) banks = std::max(banks, *bank < 2 ? *bank + 1 : 4);
+  }
+  return banks;
+}
+
+void name_model(std::uint8_t byte, KindText& out) {
+  const auto* const known = std::find_if(std::begin(kModels), std::end(kModels),
+                                         [byte](const KnownByte& model) { return model.byte == byte; });
+  std::snprintf(out.data(), out.size(), "%s, model byte 0x%02X",
+                known != std::end(kModels) ? known->sensor : "no sensor that is known", byte);
+}
+
+}  // namespace
+
+std::optional<int> velodyne_bank(const std::uint8_t* block) {
+  const auto flag = load_le<std::uint16_t>(block);
+  const auto* const found = std::find(std::begin(kVelodyneFlags), std::end(kVelodyneFlags), flag);
+  if (found == std::end(kVelodyneFlags)) return std::nullopt;
+  return static_cast<int>(found - kVelodyneFlags);
+}
+
+std::optional<VelodyneReturns> velodyne_returns(const std::uint8_t* packet) {
+  const std::uint8_t mode = packet[kModeAt];
+  if (mode == 0x37 || mode == 0x38) return VelodyneReturns::single;  // strongest, last
+  if (mode == 0x39) return VelodyneReturns::dual;
+  return std::nullopt;
+}
+
+bool VelodyneMarks::fit(const std::uint8_t* packet) const {
+  if (velodyne_bank(packet) == std::nullopt || banks_of(packet) != banks) return false;
+  if (model_byte && packet[kModelAt] != *model_byte) return false;
+  return returns || !model_byte || velodyne_returns(packet).has_value();
+}
+
+VelodyneReturns VelodyneMarks::returns_of(const std::uint8_t* packet) const {
+  if (returns) return *returns;
+  if (!model_byte) return VelodyneReturns::single;
+  return velodyne_returns(packet).value_or(VelodyneReturns::single);
+}
+
+void VelodyneMarks::name(const std::uint8_t* packet, KindText& out) const {
+  out[0] = '\0';
+  const int found = banks_of(packet);
+  if (found == 0) return;
+  if (found == 2) {
+    if (banks != 2) std::snprintf(out.data(), out.size(), "an HDL-64E, blocks DDFF");
+  } else if (found == 4 && packet[kModelAt] != 0xA1) {
+    std::snprintf(out.data(), out.size(), "a VLS-128, blocks BBFF, but model byte 0x%02X", packet[kModelAt]);
+  } else if (!model_byte || packet[kModelAt] != *model_byte) {
+    name_model(packet[kModelAt], out);
+  } else if (found != banks) {
+    std::snprintf(out.data(), out.size(), "model byte 0x%02X, but no blocks DDFF", packet[kModelAt]);
+  } else if (!returns && !velodyne_returns(packet)) {
+    std::snprintf(out.data(), out.size(), "return mode 0x%02X, neither 0x37, 0x38 nor 0x39", packet[kModeAt]);
+  }
+}
+
+}  // namespace gvom::ingest
