@@ -33,17 +33,14 @@ class SweepMapper {
       : SweepMapper(config.map,
                     std::make_unique<cpu::Voxelizer>(config.map, lidar, config.vehicle, max_returns)) {}
 
-  /// Whether the odometry reaches the sweep's stamp; before, the sweep has to wait (R3).
-  static bool is_due(const Sweep& sweep, const OdometryBuffer& odometry) {
-    return !odometry.empty() && odometry.newest_ns() >= sweep.stamp_ns;
-  }
-
-  /// Counts a sweep: what its map needs to be written. Error `no_odometry` if the odometry does not bracket
-  /// all of the sweep's times: there is no extrapolation (R3).
+  /// Counts a sweep: what its map needs to be written. Error `no_odometry` if the odometry does not cover
+  /// `span_of(sweep)`: there is no extrapolation (R3).
   tl::expected<BrickMapShape, SweepError> count(const Sweep& sweep, const OdometryBuffer& odometry) {
     const std::optional<Pose> at_stamp = odometry.at(sweep.stamp_ns);
-    if (!at_stamp || !find_poses(sweep, odometry))
-      return tl::unexpected(SweepError{SweepError::Reason::no_odometry, {}});
+    if (!at_stamp || odometry.reach(span_of(sweep)) != Reach::covered)
+      return tl::unexpected(
+          SweepError{SweepError::Reason::no_odometry, "the odometry does not cover the sweep"});
+    find_poses(sweep, odometry, *at_stamp);
     T_odom_base_ = *at_stamp;
     grid_ = grid_around(map_, T_odom_base_.translation_m);
     auto shape = backend_->count(sweep, poses_, grid_);
@@ -60,14 +57,11 @@ class SweepMapper {
   [[nodiscard]] const FilterCounts& filter_counts() const { return backend_->filter_counts(); }
 
  private:
-  bool find_poses(const Sweep& sweep, const OdometryBuffer& odometry) {
+  // Times without a return may lie beyond the odometry. Nobody reads their poses.
+  void find_poses(const Sweep& sweep, const OdometryBuffer& odometry, const Pose& at_stamp) {
     poses_.clear();
-    for (const std::int64_t time_ns : sweep.times_ns) {
-      const std::optional<Pose> pose = odometry.at(time_ns);
-      if (!pose) return false;
-      poses_.push_back(*pose);
-    }
-    return true;
+    for (const std::int64_t time_ns : sweep.times_ns)
+      poses_.push_back(odometry.at(time_ns).value_or(at_stamp));
   }
 
   MapConfig map_;

@@ -1,8 +1,11 @@
 // One turn of a lidar, as a decoder leaves it and the voxelizer takes it.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
+
+#include "core/time_span.hpp"
 
 namespace gvom {
 
@@ -34,5 +37,17 @@ struct Sweep {
     columns_seen_fraction = 1.0;
   }
 };
+
+/// The times for which the sweep needs a pose: its stamp and those of its returns (R3). A column without a
+/// return needs none, so the odometry may begin after it, or end before it.
+inline TimeSpan span_of(const Sweep& sweep) {
+  TimeSpan span{sweep.stamp_ns, sweep.stamp_ns};
+  for (const Return& r : sweep.returns) {
+    const std::int64_t time_ns = sweep.times_ns[r.time_index];
+    span.first_ns = std::min(span.first_ns, time_ns);
+    span.last_ns = std::max(span.last_ns, time_ns);
+  }
+  return span;
+}
 
 }  // namespace gvom

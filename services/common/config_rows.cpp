@@ -109,13 +109,13 @@ const std::vector<VehicleRow>& vehicle_rows() {
         "command line"},
        [](V& c) -> Field { return &c.odometry.source; }},
       {{"odometry.timeout_s", "s", Rule::range, 0.01, 60, kOptional,
-        "a sweep waits this long for the odometry that brackets it (R3)"},
+        "a live sweep waits this long for the odometry that brackets it (R3)"},
        [](V& c) -> Field { return &c.odometry.timeout_s; }},
       {{"odometry.max_gap_s", "s", Rule::range, 0.05, 60, kOptional,
-        "a live sweep within a longer gap between two poses is dropped"},
+        "a sweep within a longer gap between two poses is not mapped, live or recorded"},
        [](V& c) -> Field { return &c.odometry.max_gap_s; }},
       {{"odometry.max_speed_mps", "m/s", Rule::range, 1, 1000, kOptional,
-        "live odometry that moves faster from pose to pose has jumped: the map begins anew"},
+        "odometry that moves faster from pose to pose has jumped: the map begins anew, live or recorded"},
        [](V& c) -> Field { return &c.odometry.max_speed_mps; }},
   };
   return rows;

@@ -34,9 +34,9 @@ struct LidarConfig {
 /// `odometry.*`.
 struct OdometryConfig {
   std::string source;      ///< See read_odometry_source; may be empty (given on the command line).
-  double timeout_s = 1.0;  ///< A sweep waits this long for the odometry that brackets it (R3), 0.01 .. 60.
-  // The next two hold for live sensors. A recording is mapped by the odometry that it has (R3), however
-  // sparse: gvom-map and a replay at any rate give the same map.
+  double timeout_s = 1.0;  ///< A live sweep waits this long for the odometry that brackets it, 0.01 .. 60.
+  // The next two hold for recordings as well: gvom-map and a replay at any rate give the map that live
+  // sensors would have given.
   double max_gap_s = 0.5;       ///< Between two poses; a sweep in a longer one is not mapped, 0.05 .. 60.
   double max_speed_mps = 40.0;  ///< Faster from pose to pose is a jump: the map begins anew, 1 .. 1000.
 };

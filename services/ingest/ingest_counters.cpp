@@ -17,6 +17,26 @@ IngestCounters::IngestCounters(services::HealthReport& health)
   for (std::size_t i = 0; i < reported_.size(); ++i) reported_[i] = &health.counter(kIngestCounters[i].name);
 }
 
+void IngestCounters::take(const SourceCounters& source, const SweepReader::Overruns& counted) {
+  static_cast<SourceCounters&>(*this) = source;
+  overruns = counted.slow;
+  waiting_overruns = counted.waiting;
+}
+
+void IngestCounters::take(const OdometryCounts& odometry, const SweepLosses& losses) {
+  poses = odometry.poses;
+  not_finite_poses = odometry.not_finite;
+  not_newer_poses = odometry.not_newer;
+  old_epoch_poses = odometry.old_epoch;
+  odometry_gaps = odometry.gaps;
+  odometry_jumps = odometry.jumps;
+  before_odometry = losses.of(SweepLoss::before_odometry).count;
+  after_odometry = losses.of(SweepLoss::after_odometry).count;
+  in_odometry_gap = losses.of(SweepLoss::gap).count;
+  across_odometry_jump = losses.of(SweepLoss::jump).count;
+  odometry_timeouts = losses.of(SweepLoss::timeout).count;
+}
+
 void IngestCounters::report() {
   for (std::size_t i = 0; i < reported_.size(); ++i) *reported_[i] = this->*kIngestCounters[i].value;
 }

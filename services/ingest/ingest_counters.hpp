@@ -7,7 +7,8 @@
 
 #include "core/returns.hpp"
 #include "services/common/health.hpp"
-#include "services/ingest/source.hpp"
+#include "services/ingest/odometry_intake.hpp"
+#include "services/ingest/sweep_reader.hpp"
 
 namespace gvom::ingest {
 
@@ -16,8 +17,10 @@ struct IngestCounts : SourceCounters {
   std::uint64_t mapped_sweeps = 0;
   std::uint64_t before_odometry = 0;
   std::uint64_t odometry_timeouts = 0;
+  std::uint64_t waiting_overruns = 0;
   std::uint64_t after_odometry = 0;
   std::uint64_t in_odometry_gap = 0;
+  std::uint64_t across_odometry_jump = 0;
   std::uint64_t overruns = 0;
   std::uint64_t without_chunk = 0;
   std::uint64_t backend_failures = 0;
@@ -25,6 +28,7 @@ struct IngestCounts : SourceCounters {
   std::uint64_t lost_poses = 0;
   std::uint64_t not_finite_poses = 0;
   std::uint64_t not_newer_poses = 0;
+  std::uint64_t old_epoch_poses = 0;
   std::uint64_t odometry_gaps = 0;
   std::uint64_t odometry_jumps = 0;
   std::uint64_t returns_used = 0;
@@ -49,8 +53,10 @@ inline constexpr CounterRow kIngestCounters[] = {
     {"sweeps_mapped", &IngestCounts::mapped_sweeps, "sweeps mapped"},
     {"drop_before_odometry", &IngestCounts::before_odometry, "sweeps from before the first pose"},
     {"drop_odometry_timeout", &IngestCounts::odometry_timeouts, "sweeps that no pose came for in time"},
+    {"drop_odometry_full", &IngestCounts::waiting_overruns, "sweeps without room to wait for a pose"},
     {"drop_after_odometry", &IngestCounts::after_odometry, "sweeps left when the replay ended"},
-    {"drop_odometry_gap", &IngestCounts::in_odometry_gap, "sweeps that reach into a gap or a jump"},
+    {"drop_odometry_gap", &IngestCounts::in_odometry_gap, "sweeps that reach into a gap"},
+    {"drop_odometry_jump", &IngestCounts::across_odometry_jump, "sweeps that reach across a jump"},
     {"drop_overrun", &IngestCounts::overruns, "sweeps that the loop was too slow for"},
     {"drop_no_chunk", &IngestCounts::without_chunk, "maps that shared memory had no room for"},
     {"drop_backend_failed", &IngestCounts::backend_failures, "sweeps lost with the back end"},
@@ -60,6 +66,7 @@ inline constexpr CounterRow kIngestCounters[] = {
     {"odometry_lost", &IngestCounts::lost_poses, "poses that the queue had no room for"},
     {"drop_odometry_not_finite", &IngestCounts::not_finite_poses, "poses that are none"},
     {"drop_odometry_not_newer", &IngestCounts::not_newer_poses, "poses that go back in time"},
+    {"drop_odometry_old_epoch", &IngestCounts::old_epoch_poses, "poses of an old epoch"},
     {"odometry_gaps", &IngestCounts::odometry_gaps, "gaps in the odometry"},
     {"odometry_jumps", &IngestCounts::odometry_jumps, "jumps of the odometry"},
     {"returns_used", &IngestCounts::returns_used, "returns used"},
@@ -87,8 +94,9 @@ class IngestCounters : public IngestCounts {
  public:
   explicit IngestCounters(services::HealthReport& health);
 
-  /// What the source counted so far.
-  void take(const SourceCounters& source) { static_cast<SourceCounters&>(*this) = source; }
+  /// What the source and its reader counted so far, and what the intake did.
+  void take(const SourceCounters& source, const SweepReader::Overruns& overruns);
+  void take(const OdometryCounts& odometry, const SweepLosses& losses);
 
   /// Puts everything into the next Health.
   void report();

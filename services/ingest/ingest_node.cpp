@@ -8,6 +8,7 @@
 #include "services/common/bus/core_types.hpp"
 #include "services/common/bus/pool_spec.hpp"
 #include "services/common/config_file.hpp"
+#include "services/ingest/loss_words.hpp"
 
 namespace gvom::ingest {
 
@@ -44,7 +45,6 @@ ipc::Expected<Bus> Bus::open(ipc::Runtime& runtime, const services::VehicleConfi
 IngestNode::IngestNode(const services::VehicleConfig& config, const services::LidarConfig& lidar,
                        ipc::Runtime& runtime, Bus& bus, services::Lifecycle& lifecycle, Equipment equipment)
     : lidar_(lidar),
-      odometry_timeout_ns_(static_cast<std::int64_t>(config.odometry.timeout_s * 1e9)),
       bus_(bus),
       lifecycle_(lifecycle),
       broker_(runtime),
@@ -53,9 +53,11 @@ IngestNode::IngestNode(const services::VehicleConfig& config, const services::Li
       mapper_(config.mapper.map, std::move(equipment.backend.backend)),
       credit_(lidar.name),
       reader_(std::move(equipment.source), static_cast<std::size_t>(lidar.max_returns),
+              queue_for(config.odometry.timeout_s, static_cast<std::size_t>(lidar.max_returns)),
               [this] { bus_.waiter.wake(); }),
-      sensor_watch_(reader_.is_live() ? reader_.most_packets_per_s() : 0, ipc::monotonic_ns()),
-      odometry_watch_(config.odometry) {
+      odometry_(config.odometry,
+                reader_.is_live() ? OdometryIntake::Sweeps::live : OdometryIntake::Sweeps::recorded),
+      sensor_watch_(reader_.is_live() ? reader_.most_packets_per_s() : 0, ipc::monotonic_ns()) {
   health_.set_backend(equipment.backend.name, equipment.backend.details);
   lifecycle_.on_stop([this] { bus_.waiter.wake(); });
 }
@@ -79,7 +81,7 @@ ExitCode IngestNode::run() {
     publish_health();
     broker_.check();
     while (const auto warning = reader_.new_warning()) spdlog::warn("{}", *warning);
-    if (const auto error = reader_.error(); error && reader_.at_end()) {
+    if (const auto error = reader_.error(); error && front_ == nullptr && reader_.at_end()) {
       spdlog::error("{}", *error);
       code = reader_.is_live() ? ExitCode::unavailable : ExitCode::bad_data;
       break;
@@ -92,58 +94,51 @@ ExitCode IngestNode::run() {
   spdlog::info("{} of {} sweeps mapped", counters_.mapped_sweeps, counters_.sweeps);
   if (const std::string dropped = counters_.dropped(); !dropped.empty())
     spdlog::info("not used: {}", dropped);
+  for (const std::string& line : explain(losses_, odometry_)) spdlog::warn("{}", line);
   broker_.leave_if_gone();
   return code;
 }
 
+Sweep* IngestNode::front() {
+  if (front_ != nullptr) return front_;
+  front_ = reader_.take();
+  if (front_ != nullptr)
+    front_since_ns_ = front_->received_ns != 0 ? front_->received_ns : ipc::monotonic_ns();
+  return front_;
+}
+
+void IngestNode::release_front() {
+  if (front_ != nullptr) reader_.give_back(front_);
+  front_ = nullptr;
+}
+
 bool IngestNode::map_due_sweeps() {
-  while (const auto stamp_ns = reader_.front_stamp()) {
-    if (!is_due(*stamp_ns)) {
-      if (!give_up_late_sweep(*stamp_ns)) return true;
-      continue;
+  while (const Sweep* const sweep = front()) {
+    const Placement placement = odometry_.judge(*sweep, front_since_ns_, ipc::monotonic_ns());
+    reader_.set_waiting(placement.when == Placement::When::later);
+    if (placement.when == Placement::When::later) return true;
+    if (placement.when == Placement::When::never) {
+      drop(*sweep, placement.why);
+    } else {
+      if (lossless_ && !credit_.has_room(bus_.maps.sequence())) return false;
+      map_sweep(*sweep);
     }
-    if (lossless_ && !credit_.has_room(bus_.maps.sequence())) return false;
-    Sweep* const sweep = reader_.take();
-    if (sweep == nullptr) continue;
-    map_sweep(*sweep);
-    reader_.give_back(sweep);
-    front_since_ns_ = 0;
+    release_front();
     if (lifecycle_.stopping() || failure_) return true;
   }
   return true;
 }
 
-// A sensor's sweep waits for odometry only so long (R3). A recording's waits for the replay's clock, until
-// that says that it is through.
-bool IngestNode::give_up_late_sweep(std::int64_t stamp_ns) {
-  const std::int64_t now_ns = ipc::monotonic_ns();
-  if (front_since_ns_ == 0 || front_stamp_ns_ != stamp_ns) {
-    front_since_ns_ = now_ns;
-    front_stamp_ns_ = stamp_ns;
-  }
-  const bool late = reader_.is_live() && now_ns - front_since_ns_ > odometry_timeout_ns_;
-  const bool left_over = !reader_.is_live() && end_of_stream_;
-  if (!late && !left_over) return false;
-  Sweep* const sweep = reader_.take();
-  if (sweep == nullptr) return true;
-  reader_.give_back(sweep);
-  ++(late ? counters_.odometry_timeouts : counters_.after_odometry);
-  if (late)
-    log_drops_(spdlog::level::warn, "no odometry for a sweep within {} s: dropped",
-               static_cast<double>(odometry_timeout_ns_) * 1e-9);
-  return true;
+void IngestNode::drop(const Sweep& sweep, SweepLoss why) {
+  losses_.count(why, sweep.stamp_ns);
+  odometry_.note(why, ipc::monotonic_ns());
+  log_drops_(spdlog::level::warn, "a sweep is not mapped: {}", words_of(why));
 }
 
 void IngestNode::map_sweep(const Sweep& sweep) {
   const std::int64_t begin_ns = ipc::monotonic_ns();
-  const auto shape = mapper_.count(sweep, odometry_);
-  if (!shape && shape.error().reason == SweepError::Reason::device) return fail(shape.error().what);
-  if (!shape) {
-    ++(odometry_broken_ ? counters_.in_odometry_gap : counters_.before_odometry);
-    log_drops_(spdlog::level::info, "a sweep began before the odometry{}: dropped",
-               odometry_broken_ ? " went on" : "");
-    return;
-  }
+  const auto shape = mapper_.count(sweep, odometry_.poses());
+  if (!shape) return fail(shape.error().what);
   if (!publish(sweep, *shape, begin_ns)) return;
   ++counters_.mapped_sweeps;
   counters_.add(mapper_.filter_counts());
@@ -176,9 +171,9 @@ bool IngestNode::publish(const Sweep& sweep, const BrickMapShape& shape, std::in
   header.dropped_too_near = filter.too_near;
   header.dropped_too_far = filter.too_far;
   header.dropped_body = filter.body;
-  header.odometry_jump_ns = odometry_jump_ns_;
+  header.odometry_jump_ns = odometry_.poses().jump_before(sweep.stamp_ns);
   // A recording's sweep is there, as a sensor's would be, when the clock reaches it.
-  header.mono_received_ns = sweep.received_ns != 0 ? sweep.received_ns : odometry_came_ns_;
+  header.mono_received_ns = sweep.received_ns != 0 ? sweep.received_ns : odometry_.came_ns();
   header.suspended_ns = ipc::suspended_ns();
   header.mono_mapped_ns = begin_ns;
   counters_.wait.record_ns(begin_ns - header.mono_received_ns);
@@ -186,19 +181,19 @@ bool IngestNode::publish(const Sweep& sweep, const BrickMapShape& shape, std::in
     fail(written.error().what);
     return false;
   }
-  bus_.maps.publish(std::move(*writer), sweep.stamp_ns, epoch_);
+  bus_.maps.publish(std::move(*writer), sweep.stamp_ns, odometry_.epoch());
   return true;
 }
 
-bool IngestNode::is_due(std::int64_t stamp_ns) const {
-  return !odometry_.empty() && odometry_.newest_ns() >= stamp_ns;
+// The reader may have handed a sweep over since the loop looked: one that is due is not settled.
+bool IngestNode::is_settled() {
+  if (reader_.is_live()) return true;
+  if (front() == nullptr) return reader_.at_end();
+  return odometry_.judge(*front_, front_since_ns_, ipc::monotonic_ns()).when == Placement::When::later;
 }
 
-// The reader may have handed a sweep over since the loop looked: one that is due is not settled.
-bool IngestNode::is_settled() const {
-  if (reader_.is_live()) return true;
-  const auto stamp_ns = reader_.front_stamp();
-  return stamp_ns ? !is_due(*stamp_ns) : reader_.at_end();
+std::int64_t IngestNode::odometry_stamp_ns() const {
+  return odometry_.poses().empty() ? 0 : odometry_.poses().newest_ns();
 }
 
 // Only a replay that waits for its readers wants to know at once; each message costs all of them a wake-up.
@@ -208,11 +203,10 @@ void IngestNode::publish_progress() {
   progress.odometry_sequence = acknowledged_sequence_;
   progress.maps_published = bus_.maps.sequence();
   const bool news = progress.odometry_sequence != told_odometry_ || progress.maps_published != told_maps_;
-  const bool awaited = lossless_ || end_of_stream_;
+  const bool awaited = lossless_ || odometry_.has_ended();
   if (!(news && awaited) && now_ns < next_progress_ns_) return;
   ipc::set_text(progress.reader, lidar_.name);
-  const std::int64_t stamp_ns = odometry_.empty() ? 0 : odometry_.newest_ns();
-  if (!bus_.own_progress.publish(progress, stamp_ns, epoch_)) return;
+  if (!bus_.own_progress.publish(progress, odometry_stamp_ns(), odometry_.epoch())) return;
   told_odometry_ = progress.odometry_sequence;
   told_maps_ = progress.maps_published;
   next_progress_ns_ = now_ns + kProgressPeriod_ns;
@@ -231,19 +225,19 @@ void IngestNode::publish_health() {
 
 std::uint64_t IngestNode::judge(std::int64_t now_ns) {
   services::Words words;
-  std::uint64_t faults = 0;
-  if (reader_.is_live() && !end_of_stream_) {
-    sensor_watch_.update(reader_.counters(), reader_.overruns(), now_ns);
-    odometry_watch_.describe(now_ns, words);
+  odometry_.describe(now_ns, words);
+  if (reader_.is_live()) {
+    sensor_watch_.update(reader_.counters(), reader_.overruns().slow, now_ns);
     sensor_watch_.describe(words);
-    faults = sensor_watch_.faults() | std::uint64_t{odometry_watch_.faults(now_ns)} << 32;
   }
-  const bool stale = !end_of_stream_ && now_ns - last_map_ns_ >= 1'000'000'000;
+  const std::uint64_t faults = sensor_watch_.faults() | std::uint64_t{odometry_.faults(now_ns)} << 32;
+  const bool through = !reader_.is_live() && odometry_.has_ended();
+  const bool stale = !through && now_ns - last_map_ns_ >= 1'000'000'000;
   if (last_map_ns_ == 0) {
-    if (words.empty()) words.add(odometry_.empty() ? "no odometry yet" : "no sweep yet");
+    if (words.empty()) words.add(odometry_.poses().empty() ? "no odometry yet" : "no sweep yet");
     health_.set_state(ipc::HealthState::starting, words.text());
   } else if (stale || !words.empty()) {
-    if (words.empty()) words.add(reader_.front_stamp() ? "no odometry" : "no sweeps");
+    if (words.empty()) words.add(front_ != nullptr ? "no odometry" : "no sweeps");
     health_.set_state(ipc::HealthState::degraded, words.text());
   } else {
     health_.set_state(ipc::HealthState::ok);
@@ -252,8 +246,8 @@ std::uint64_t IngestNode::judge(std::int64_t now_ns) {
 }
 
 void IngestNode::send_health(std::int64_t now_ns) {
-  counters_.take(reader_.counters());
-  counters_.overruns = reader_.overruns();
+  counters_.take(reader_.counters(), reader_.overruns());
+  counters_.take(odometry_.counts(), losses_);
   counters_.lost_poses = bus_.odometry.counters().lost;
   counters_.report();
   const ipc::Health& health = health_.take(now_ns);
@@ -263,7 +257,7 @@ void IngestNode::send_health(std::int64_t now_ns) {
                 static_cast<unsigned long long>(counters_.mapped_sweeps),
                 static_cast<unsigned long long>(counters_.sweeps));
   services::notify_status(status);
-  if (!bus_.health.publish(health, odometry_.empty() ? 0 : odometry_.newest_ns(), epoch_))
+  if (!bus_.health.publish(health, odometry_stamp_ns(), odometry_.epoch()))
     log_drops_(spdlog::level::warn, "a health message is lost");
 }
 

@@ -19,7 +19,7 @@
 #include "services/common/vehicle_config.hpp"
 #include "services/ingest/fusion_credit.hpp"
 #include "services/ingest/ingest_counters.hpp"
-#include "services/ingest/odometry_watch.hpp"
+#include "services/ingest/odometry_intake.hpp"
 #include "services/ingest/sensor_watch.hpp"
 #include "services/ingest/sweep_reader.hpp"
 
@@ -57,21 +57,21 @@ class IngestNode {
 
  private:
   void take_odometry();
-  void take_pose(const StampedPose& pose);
-  void begin_epoch(std::uint64_t epoch);
-  /// From this pose on nothing follows from the poses before.
-  void break_odometry(OdometryStep step, const StampedPose& pose);
+  void begin_epoch();
+  void say(Taken taken, std::uint64_t sequence);
+  /// The oldest sweep, which is ours until it is mapped or dropped; null if there is none.
+  Sweep* front();
+  void release_front();
   /// Maps every sweep that the odometry has reached; false while one waits for room at fusion.
   bool map_due_sweeps();
+  void drop(const Sweep& sweep, SweepLoss why);
   void map_sweep(const Sweep& sweep);
   bool publish(const Sweep& sweep, const BrickMapShape& shape, std::int64_t begin_ns);
   /// The back end is lost for good, and the sweep in hand with it: this process leaves, to be started again.
   void fail(const std::string& what);
-  bool give_up_late_sweep(std::int64_t stamp_ns);
-  /// Whether the odometry has reached the stamp.
-  [[nodiscard]] bool is_due(std::int64_t stamp_ns) const;
   /// Whether nothing more can come of the odometry so far.
-  [[nodiscard]] bool is_settled() const;
+  [[nodiscard]] bool is_settled();
+  [[nodiscard]] std::int64_t odometry_stamp_ns() const;
   void publish_progress();
   void publish_health();
   /// The state for Health, in words where it is not ok. Returns the faults that it names.
@@ -79,7 +79,6 @@ class IngestNode {
   void send_health(std::int64_t now_ns);
 
   const services::LidarConfig& lidar_;
-  const std::int64_t odometry_timeout_ns_;
   Bus& bus_;
   services::Lifecycle& lifecycle_;
   services::BrokerWatch broker_;
@@ -87,28 +86,23 @@ class IngestNode {
   IngestCounters counters_;
   services::LogEvery log_drops_{std::chrono::seconds(10)};
 
-  OdometryBuffer odometry_;
   SweepMapper mapper_;
   FusionCredit credit_;
   SweepReader reader_;
+  OdometryIntake odometry_;
   SensorWatch sensor_watch_;
-  OdometryWatch odometry_watch_;
+  SweepLosses losses_;
 
-  std::uint64_t epoch_ = 0;
   std::uint64_t odometry_sequence_ = 0;      // newest received
   std::uint64_t acknowledged_sequence_ = 0;  // newest of which all sweeps were mapped
   bool lossless_ = false;
-  bool end_of_stream_ = false;
-  std::int64_t odometry_came_ns_ = 0;  // CLOCK_MONOTONIC of the newest
-  std::int64_t front_since_ns_ = 0;    // since when the front sweep waits
-  std::int64_t front_stamp_ns_ = 0;
+  Sweep* front_ = nullptr;
+  std::int64_t front_since_ns_ = 0;  // CLOCK_MONOTONIC since when it is there
   std::int64_t next_progress_ns_ = 0;
   std::uint64_t told_odometry_ = 0;
   std::uint64_t told_maps_ = 0;
   std::int64_t last_map_ns_ = 0;
-  bool odometry_broken_ = false;       // by a gap or a jump in this epoch
-  std::int64_t odometry_jump_ns_ = 0;  // stamp of the first pose after the last jump in this epoch
-  std::uint64_t told_faults_ = 0;      // in the last Health
+  std::uint64_t told_faults_ = 0;  // in the last Health
   std::int64_t told_health_ns_ = 0;
   std::optional<std::string> failure_;  // of the back end, for good
 };

@@ -8,7 +8,6 @@ namespace {
 
 constexpr std::int64_t kLook_ns = 100'000'000;
 constexpr std::int64_t kSilence_ns = 500'000'000;
-constexpr std::int64_t kHold_ns = 1'000'000'000;
 constexpr double kFlood = 1.5;           // times the most that the sensor sends
 constexpr double kStrayPerSecond = 5;    // a stray packet is no fault
 constexpr double kLossPercent = 5;       // of columns
@@ -23,10 +22,6 @@ std::array<char, sizeof(KindText) + 4> in_brackets(const KindText& kind) {
   std::array<char, sizeof(KindText) + 4> text{};
   if (kind[0] != '\0') std::snprintf(text.data(), text.size(), " (%s)", kind.data());
   return text;
-}
-
-std::uint32_t bit(std::size_t fault) {
-  return std::uint32_t{1} << fault;
 }
 
 }  // namespace
@@ -45,13 +40,10 @@ void SensorWatch::update(const SourceCounters& counters, std::uint64_t overruns,
   const Look now{counters, overruns, now_ns};
   looks_[looked_++ % kLooks] = now;
   judge(oldest, now);
-  faults_ = 0;
-  for (std::size_t i = 0; i < seen_.size(); ++i)
-    if (seen_[i].at_ns != 0 && now_ns - seen_[i].at_ns < kHold_ns) faults_ |= bit(i);
 }
 
 void SensorWatch::see(SensorFault fault, double value) {
-  seen_[static_cast<std::size_t>(fault)] = {value, now_ns_};
+  seen_.see(fault, value, now_ns_);
 }
 
 void SensorWatch::judge(const Look& before, const Look& now) {
@@ -60,7 +52,7 @@ void SensorWatch::judge(const Look& before, const Look& now) {
     return static_cast<double>(now.counters.*counter - before.counters.*counter) * per_s;
   };
   const std::int64_t silent_ns = now.at_ns - heard_ns_;
-  seen_[static_cast<std::size_t>(SensorFault::silence)] = {};
+  seen_.forget(SensorFault::silence);
   if (silent_ns >= kSilence_ns) see(SensorFault::silence, static_cast<double>(silent_ns) * 1e-9);
   if (const double packets = rate(&SourceCounters::packets); packets > kFlood * most_packets_per_s_)
     see(SensorFault::flood, packets);
@@ -105,8 +97,10 @@ void SensorWatch::judge_shares(const SourceCounters& before, const SourceCounter
 }
 
 void SensorWatch::describe(services::Words& words) const {
-  for (std::size_t i = 0; i < seen_.size(); ++i)
-    if ((faults_ & bit(i)) != 0) tell(static_cast<SensorFault>(i), seen_[i].value, words);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(SensorFault::count); ++i) {
+    const auto fault = static_cast<SensorFault>(i);
+    if (seen_.has(fault, now_ns_)) tell(fault, seen_.value(fault), words);
+  }
 }
 
 void SensorWatch::tell(SensorFault fault, double value, services::Words& words) const {

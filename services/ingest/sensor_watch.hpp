@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "services/common/words.hpp"
+#include "services/ingest/sightings.hpp"
 #include "services/ingest/source.hpp"
 
 namespace gvom::ingest {
@@ -26,8 +27,7 @@ enum class SensorFault {
   count
 };
 
-/// Judges rates over the last half second. A fault is told for a second after it was last seen, so that one
-/// that comes and goes does not flicker.
+/// Judges rates over the last half second.
 class SensorWatch {
  public:
   /// `most_packets_per_s`: see Source; 0: no packets, and nothing is ever wrong.
@@ -37,7 +37,7 @@ class SensorWatch {
   void update(const SourceCounters& counters, std::uint64_t overruns, std::int64_t now_ns);
 
   /// A bit for each fault that there is.
-  [[nodiscard]] std::uint32_t faults() const { return faults_; }
+  [[nodiscard]] std::uint32_t faults() const { return seen_.bits(now_ns_); }
   void describe(services::Words& words) const;
 
  private:
@@ -60,16 +60,11 @@ class SensorWatch {
   std::size_t looked_ = 0;
   std::int64_t heard_ns_;  // when packets last came
   std::int64_t now_ns_;
-  struct Seen {
-    double value = 0;
-    std::int64_t at_ns = 0;
-  };
-  std::array<Seen, static_cast<std::size_t>(SensorFault::count)> seen_{};
+  Sightings<SensorFault> seen_;
   std::array<std::uint8_t, 4> second_ipv4_{};
   KindText second_kind_{};
   KindText foreign_kind_{};
   std::uint64_t foreign_size_ = 0;
-  std::uint32_t faults_ = 0;
 };
 
 }  // namespace gvom::ingest

@@ -1,5 +1,7 @@
 #include "services/ingest/sweep_reader.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace gvom::ingest {
@@ -7,21 +9,32 @@ namespace gvom::ingest {
 namespace {
 
 constexpr std::chrono::milliseconds kPatience{50};  // how soon a stop is noticed
+constexpr double kMostTurnsPerSecond = 20;
+constexpr std::size_t kMostBytes = std::size_t{128} << 20;
 
 }  // namespace
 
-SweepReader::SweepReader(std::unique_ptr<Source> source, std::size_t max_returns,
+std::size_t queue_for(double timeout_s, std::size_t max_returns) {
+  const auto wanted = static_cast<std::size_t>(std::ceil(timeout_s * kMostTurnsPerSecond)) + 1;
+  const std::size_t bytes = max_returns * (sizeof(Return) + sizeof(std::int64_t));
+  return std::max<std::size_t>(4, std::min(wanted, kMostBytes / bytes));
+}
+
+SweepReader::SweepReader(std::unique_ptr<Source> source, std::size_t max_returns, std::size_t queue,
                          std::function<void()> on_change)
     : source_(std::move(source)),
       live_(source_->is_live()),
       most_packets_per_s_(source_->most_packets_per_s()),
       on_change_(std::move(on_change)),
+      sweeps_((live_ ? std::max(queue, kBacklog) : kBacklog) + 2),
+      queue_(sweeps_.size()),
       warned_(source_->warnings().size()) {
+  free_.reserve(sweeps_.size());
   for (Sweep& sweep : sweeps_) {
     sweep.returns.resize(max_returns);  // touched now, not when the loop first falls behind
     sweep.returns.clear();
     sweep.times_ns.reserve(max_returns);
-    free_[static_cast<std::size_t>(free_count_++)] = &sweep;
+    free_.push_back(&sweep);
   }
   thread_ = std::thread([this] { run(); });
 }
@@ -35,17 +48,16 @@ SweepReader::~SweepReader() {
   thread_.join();
 }
 
-std::optional<std::int64_t> SweepReader::front_stamp() const {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  if (queue_count_ == 0) return std::nullopt;
-  return queue_[static_cast<std::size_t>(queue_begin_)]->stamp_ns;
-}
-
 Sweep* SweepReader::take() {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (queue_count_ == 0) return nullptr;
-  Sweep* const sweep = queue_[static_cast<std::size_t>(queue_begin_)];
-  queue_begin_ = (queue_begin_ + 1) % kSlots;
+  ++taken_;
+  return pop();
+}
+
+Sweep* SweepReader::pop() {
+  Sweep* const sweep = queue_[queue_begin_];
+  queue_begin_ = (queue_begin_ + 1) % queue_.size();
   --queue_count_;
   return sweep;
 }
@@ -53,7 +65,7 @@ Sweep* SweepReader::take() {
 void SweepReader::give_back(Sweep* sweep) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    free_[static_cast<std::size_t>(free_count_++)] = sweep;
+    free_.push_back(sweep);
   }
   changed_.notify_all();
 }
@@ -80,10 +92,7 @@ void SweepReader::rewind() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     rewind_ = true;
-    for (; queue_count_ > 0; --queue_count_) {
-      free_[static_cast<std::size_t>(free_count_++)] = queue_[static_cast<std::size_t>(queue_begin_)];
-      queue_begin_ = (queue_begin_ + 1) % kSlots;
-    }
+    while (queue_count_ > 0) free_.push_back(pop());
   }
   changed_.notify_all();
 }
@@ -93,13 +102,13 @@ SourceCounters SweepReader::counters() const {
   return counters_;
 }
 
-std::uint64_t SweepReader::overruns() const {
+SweepReader::Overruns SweepReader::overruns() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return overruns_;
 }
 
 bool SweepReader::wait_for_slot(std::unique_lock<std::mutex>& lock) {
-  const auto ready = [this] { return stop_ || rewind_ || (!ended_ && (free_count_ > 0 || live_)); };
+  const auto ready = [this] { return stop_ || rewind_ || (!ended_ && (!free_.empty() || live_)); };
   changed_.wait(lock, ready);
   if (stop_) return false;
   if (rewind_) {
@@ -111,17 +120,23 @@ bool SweepReader::wait_for_slot(std::unique_lock<std::mutex>& lock) {
     }
     return wait_for_slot(lock);
   }
-  if (free_count_ == 0) {  // live, and the loop is behind
-    free_[static_cast<std::size_t>(free_count_++)] = queue_[static_cast<std::size_t>(queue_begin_)];
-    queue_begin_ = (queue_begin_ + 1) % kSlots;
-    --queue_count_;
-    ++overruns_;
-  }
+  if (free_.empty()) make_room();
   return true;
 }
 
+/// Of a sensor: its oldest sweep goes.
+void SweepReader::make_room() {
+  free_.push_back(pop());
+  ++(waiting_.load(std::memory_order_relaxed) ? overruns_.waiting : overruns_.slow);
+}
+
+/// What waits for the loop itself is kept short, since it ages: a longer queue, from a time without odometry,
+/// may only shrink.
 void SweepReader::push(Sweep* sweep) {
-  queue_[static_cast<std::size_t>((queue_begin_ + queue_count_++) % kSlots)] = sweep;
+  const bool slow = live_ && !waiting_.load(std::memory_order_relaxed) && taken_ < 2;
+  if (slow && queue_count_ >= kBacklog) make_room();
+  taken_ = 0;
+  queue_[(queue_begin_ + queue_count_++) % queue_.size()] = sweep;
 }
 
 void SweepReader::note_warnings() {
@@ -132,7 +147,8 @@ void SweepReader::note_warnings() {
 void SweepReader::run() {
   std::unique_lock<std::mutex> lock(mutex_);
   while (wait_for_slot(lock)) {
-    Sweep* const sweep = free_[static_cast<std::size_t>(--free_count_)];
+    Sweep* const sweep = free_.back();
+    free_.pop_back();
     lock.unlock();
     if (const std::int64_t hint_ns = time_hint_ns_.load(std::memory_order_relaxed))
       source_->set_time_hint(hint_ns);
@@ -144,7 +160,7 @@ void SweepReader::run() {
     if (whole) {
       push(sweep);
     } else {
-      free_[static_cast<std::size_t>(free_count_++)] = sweep;
+      free_.push_back(sweep);
     }
     if (!event) error_ = event.error();
     ended_ = !event || *event == SourceEvent::kEnd;

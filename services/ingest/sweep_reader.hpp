@@ -1,7 +1,6 @@
 // Reads sweeps in a thread of its own, so that a socket is emptied while the loop maps.
 #pragma once
 
-#include <array>
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
@@ -17,18 +16,22 @@
 
 namespace gvom::ingest {
 
+/// How many live sweeps a queue needs room for, so that each can wait `timeout_s` for odometry at 20 turns a
+/// second; fewer, but at least four, if their memory would exceed 128 MiB.
+std::size_t queue_for(double timeout_s, std::size_t max_returns);
+
 /// A bounded queue of sweeps between a source's thread and the loop. A recording waits when it is full; a
 /// live sensor does not: its oldest sweep goes, counted.
 class SweepReader {
  public:
+  /// @param queue   most live sweeps that wait for odometry; a recording's queue holds four
   /// @param on_change called in the reader's thread when there is a sweep, an end or an error
-  SweepReader(std::unique_ptr<Source> source, std::size_t max_returns, std::function<void()> on_change);
+  SweepReader(std::unique_ptr<Source> source, std::size_t max_returns, std::size_t queue,
+              std::function<void()> on_change);
   ~SweepReader();
   SweepReader(const SweepReader&) = delete;
   SweepReader& operator=(const SweepReader&) = delete;
 
-  /// Stamp of the oldest sweep in the queue.
-  [[nodiscard]] std::optional<std::int64_t> front_stamp() const;
   /// Takes the oldest sweep out; it is the caller's until `give_back`. Null if there is none.
   Sweep* take();
   void give_back(Sweep* sweep);
@@ -46,34 +49,42 @@ class SweepReader {
   [[nodiscard]] double most_packets_per_s() const { return most_packets_per_s_; }
   void set_time_hint(std::int64_t stamp_ns) { time_hint_ns_.store(stamp_ns, std::memory_order_relaxed); }
   [[nodiscard]] SourceCounters counters() const;
-  /// Live sweeps that the loop was too slow for.
-  [[nodiscard]] std::uint64_t overruns() const;
+  /// Whether the loop waits for odometry: then it is not too slow for the sweeps that pile up.
+  void set_waiting(bool waiting) { waiting_.store(waiting, std::memory_order_relaxed); }
+  struct Overruns {
+    std::uint64_t slow = 0;     ///< Live sweeps that the loop was too slow for.
+    std::uint64_t waiting = 0;  ///< ... that had no room while the loop waited for odometry.
+  };
+  [[nodiscard]] Overruns overruns() const;
 
  private:
-  static constexpr int kSlots = 6;  // one being read, one being mapped, four in the queue
+  static constexpr std::size_t kBacklog = 4;  // sweeps that may wait for the loop itself
 
   void run();
   bool wait_for_slot(std::unique_lock<std::mutex>& lock);
   void push(Sweep* sweep);
+  Sweep* pop();
+  void make_room();
   void note_warnings();
 
   std::unique_ptr<Source> source_;
   const bool live_;
   const double most_packets_per_s_;
   std::function<void()> on_change_;
-  std::array<Sweep, kSlots> sweeps_;
+  std::vector<Sweep> sweeps_;  // one being read, one being mapped, the rest in the queue or free
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
-  std::array<Sweep*, kSlots> free_{};
-  int free_count_ = 0;
-  std::array<Sweep*, kSlots> queue_{};
-  int queue_begin_ = 0;
-  int queue_count_ = 0;
+  std::vector<Sweep*> free_;
+  std::vector<Sweep*> queue_;  // a ring
+  std::size_t queue_begin_ = 0;
+  std::size_t queue_count_ = 0;
+  int taken_ = 0;  // by the loop, since the newest came
   bool stop_ = false;
   bool rewind_ = false;
   bool ended_ = false;
-  std::uint64_t overruns_ = 0;
+  Overruns overruns_;
+  std::atomic<bool> waiting_{false};
   std::optional<std::string> error_;
   std::vector<std::string> warnings_;  // not taken yet
   std::size_t warned_;                 // of the source's, those that were noted

@@ -1,6 +1,7 @@
 // Poses between odometry (R3), and what they do to a sweep that was measured on the move.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <random>
 #include <set>
 
 #include "core/brick_map_storage.hpp"
@@ -147,16 +148,97 @@ TEST_CASE("A sweep waits for the odometry and is not mapped beyond it") {
   sweep.times_ns = {150, 200};
   sweep.returns = {{5, 0, 0, 0}, {5, 0, 0, 1}};
   SweepMapper mapper({}, {}, 2);
-  CHECK_FALSE(SweepMapper::is_due(sweep, odometry));
+  CHECK(odometry.reach(span_of(sweep)) == Reach::later);
   odometry.add({100, pose(0)});
   odometry.add({199, pose(0)});
-  CHECK_FALSE(SweepMapper::is_due(sweep, odometry));
+  CHECK(odometry.reach(span_of(sweep)) == Reach::later);
   CHECK_FALSE(mapper.count(sweep, odometry));
   odometry.add({200, pose(0)});
-  CHECK(SweepMapper::is_due(sweep, odometry));
+  CHECK(odometry.reach(span_of(sweep)) == Reach::covered);
   CHECK(mapper.count(sweep, odometry));
   sweep.times_ns[0] = 99;  // before the first pose
+  CHECK(odometry.reach(span_of(sweep)) == Reach::before);
   CHECK_FALSE(mapper.count(sweep, odometry));
+}
+
+TEST_CASE("A time without a return needs no pose, before the first return or after the last") {
+  OdometryBuffer odometry;
+  odometry.add({100, pose(0)});
+  odometry.add({200, pose(1)});
+  Sweep sweep;
+  sweep.stamp_ns = 200;
+  sweep.times_ns = {90, 150, 200, 210};
+  sweep.returns = {{5, 0, 0, 1}, {5, 0, 0, 2}};
+  SweepMapper mapper({}, {}, 3);
+  CHECK(mapper.count(sweep, odometry));
+  CHECK(mapper.T_odom_base().translation_m.x() == 1);
+  CHECK(mapper.filter_counts().used == 2);
+  sweep.returns.push_back({5, 0, 0, 0});  // but with a return it does
+  CHECK_FALSE(mapper.count(sweep, odometry));
+  sweep.returns.back().time_index = 3;
+  CHECK_FALSE(mapper.count(sweep, odometry));
+  sweep.returns.clear();  // a sweep of the sky: its stamp alone
+  CHECK(mapper.count(sweep, odometry));
+}
+
+TEST_CASE("Across a gap or a jump nothing is placed, beside it everything") {
+  for (const auto& [link, reach] :
+       {std::pair(PoseLink::gap, Reach::gap), std::pair(PoseLink::jump, Reach::jump)}) {
+    OdometryBuffer odometry;
+    for (int i = 0; i < 10; ++i) odometry.add({i * 100, pose(i)}, i == 5 ? link : PoseLink::steady);
+    CHECK(odometry.at(400));
+    CHECK_FALSE(odometry.at(401));
+    CHECK_FALSE(odometry.at(499));
+    CHECK(odometry.at(500));
+    CHECK(odometry.reach({350, 400}) == Reach::covered);
+    CHECK(odometry.reach({350, 401}) == reach);
+    CHECK(odometry.reach({410, 420}) == reach);
+    CHECK(odometry.reach({400, 500}) == reach);  // moments on both sides
+    CHECK(odometry.reach({499, 800}) == reach);
+    CHECK(odometry.reach({500, 900}) == Reach::covered);
+    const std::int64_t jump_ns = link == PoseLink::jump ? 500 : 0;
+    CHECK(odometry.jump_before(499) == 0);
+    CHECK(odometry.jump_before(500) == jump_ns);
+    CHECK(odometry.jump_before(850) == jump_ns);
+  }
+}
+
+/// Whether each moment of the span lies between two poses that follow steadily, looked at one by one.
+bool is_covered_slowly(const std::vector<std::pair<std::int64_t, PoseLink>>& poses, const TimeSpan& span) {
+  for (std::int64_t t = span.first_ns; t <= span.last_ns; ++t) {
+    bool there = false;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      const bool inside = i > 0 && poses[i - 1].first <= t && t <= poses[i].first;
+      there = there || poses[i].first == t || (inside && poses[i].second == PoseLink::steady);
+      if (inside && poses[i].second != PoseLink::steady && span.first_ns < poses[i].first &&
+          poses[i].first <= span.last_ns)
+        return false;  // across it
+    }
+    if (!there) return false;
+  }
+  return true;
+}
+
+TEST_CASE("What is covered is what has a pose at each of its moments") {
+  std::minstd_rand random(7);
+  for (int round = 0; round < 3000; ++round) {
+    OdometryBuffer odometry(1 + random() % 6);
+    std::vector<std::pair<std::int64_t, PoseLink>> poses;
+    std::int64_t t = 0;
+    for (std::size_t i = random() % 9; i > 0; --i) {
+      t += 1 + static_cast<std::int64_t>(random() % 5);
+      const auto link = random() % 3 == 0 ? PoseLink::gap : PoseLink::steady;
+      poses.emplace_back(t, link);
+      odometry.add({t, pose(0)}, link);
+    }
+    while (!poses.empty() && poses.front().first < odometry.oldest_ns()) poses.erase(poses.begin());
+    const auto first = static_cast<std::int64_t>(random() % 40) - 3;
+    const TimeSpan span{first, first + static_cast<std::int64_t>(random() % 12)};
+    INFO(round << ": " << span.first_ns << " .. " << span.last_ns);
+    CHECK((odometry.reach(span) == Reach::covered) == is_covered_slowly(poses, span));
+    if (odometry.reach(span) != Reach::covered) continue;
+    for (std::int64_t at = span.first_ns; at <= span.last_ns; ++at) CHECK(odometry.at(at));
+  }
 }
 
 }  // namespace

@@ -21,6 +21,4 @@ OusterSensor lab_sensor();
 /// Looks at every fused map.
 [[noreturn]] void live_as_judge(Board& board);
 
-std::uint16_t free_port();
-
 }  // namespace gvom::test

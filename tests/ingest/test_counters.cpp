@@ -29,7 +29,7 @@ TEST_CASE("what was dropped is told in words, with what the source counted") {
   SourceCounters source;
   source.packets = 100;
   source.late_packets = 3;
-  counters.take(source);
+  counters.take(source, {});
   counters.before_odometry = 12;
   counters.report();
   CHECK(counters.dropped() == "12 sweeps from before the first pose, 3 packets of a sweep that is closed");

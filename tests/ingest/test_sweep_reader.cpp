@@ -43,8 +43,9 @@ struct Reading {
   Bell bell;
   SweepReader reader;
   Reading(bool live, std::int64_t sweeps)
-      : reader(std::make_unique<CountingSource>(live, sweeps), CountingSource::kReturns,
+      : reader(std::make_unique<CountingSource>(live, sweeps), CountingSource::kReturns, kQueue,
                [this] { bell.ring(); }) {}
+  static constexpr std::size_t kQueue = 20;
 
   /// The stamp of the next sweep, which is looked at and given back; 0 at the end.
   std::int64_t next_stamp() {
@@ -72,7 +73,7 @@ TEST_CASE("of a recording every sweep comes, in order, however slow the loop is"
     if (i % 100 == 0) std::this_thread::sleep_for(milliseconds(1));
   }
   CHECK(reading.next_stamp() == 0);
-  CHECK(reading.reader.overruns() == 0);
+  CHECK(reading.reader.overruns().slow == 0);
   CHECK(reading.reader.counters().sweeps == kSweeps);
   CHECK(reading.reader.new_warning() == "the end");
   CHECK_FALSE(reading.reader.new_warning());
@@ -94,16 +95,43 @@ TEST_CASE("of a sensor the oldest sweeps go when the loop is slow, each counted"
   Reading reading(true, 0);
   std::int64_t taken = 0;
   std::int64_t last = 0;
-  while (reading.reader.overruns() < 1000) {
+  while (reading.reader.overruns().slow < 1000) {
     const std::int64_t stamp_ns = reading.next_stamp();
     REQUIRE(stamp_ns > last);
     last = stamp_ns;
     ++taken;
     std::this_thread::sleep_for(milliseconds(1));
   }
-  const auto overruns = static_cast<std::int64_t>(reading.reader.overruns());
+  const auto overruns = static_cast<std::int64_t>(reading.reader.overruns().slow);
   CHECK(last - taken <= overruns);
-  CHECK(reading.reader.front_stamp().has_value());
+  CHECK(reading.reader.overruns().waiting == 0);
+}
+
+TEST_CASE("while the loop waits for odometry the whole queue fills, and what finds no room counts as that") {
+  Reading reading(true, 0);
+  reading.reader.set_waiting(true);
+  while (reading.reader.overruns().waiting < 10) std::this_thread::sleep_for(milliseconds(1));
+  CHECK(reading.reader.overruns().slow == 0);
+  // Taken faster than new ones come, the long queue loses nothing more but what comes in between.
+  std::int64_t last = 0;
+  for (std::size_t i = 0; i < Reading::kQueue; ++i) {
+    const std::int64_t stamp_ns = reading.next_stamp();
+    REQUIRE(stamp_ns > last);
+    last = stamp_ns;
+  }
+  // The loop is too slow now: the queue shrinks to what a slow loop may have.
+  reading.reader.set_waiting(false);
+  while (reading.reader.overruns().slow < 1000) std::this_thread::sleep_for(milliseconds(1));
+  const std::int64_t oldest = reading.next_stamp();
+  CHECK(static_cast<std::int64_t>(reading.reader.counters().sweeps) - oldest >= 3);
+}
+
+TEST_CASE("the queue has room for the timeout at 20 turns a second, within bounds of memory") {
+  CHECK(queue_for(1.0, 65536) == 21);
+  CHECK(queue_for(0.01, 65536) == 4);
+  CHECK(queue_for(1.0, 262144) == 12);
+  CHECK(queue_for(60.0, 262144) == 12);
+  CHECK(queue_for(1.0, 4194304) == 4);
 }
 
 TEST_CASE("a reader stops whatever it is doing: reading, or waiting for room") {

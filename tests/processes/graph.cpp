@@ -1,5 +1,10 @@
 #include "tests/processes/graph.hpp"
 
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
 
 namespace gvom::test {
@@ -9,6 +14,18 @@ std::vector<std::string> Vehicle::arguments(const std::vector<std::string>& more
   for (const std::string& set : sets) result.insert(result.end(), {"--set", set});
   result.insert(result.end(), more.begin(), more.end());
   return result;
+}
+
+std::uint16_t free_port() {
+  const int fd = ::socket(AF_INET, SOCK_DGRAM, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof address;
+  REQUIRE(::bind(fd, reinterpret_cast<sockaddr*>(&address), size) == 0);
+  REQUIRE(::getsockname(fd, reinterpret_cast<sockaddr*>(&address), &size) == 0);
+  ::close(fd);
+  return ntohs(address.sin_port);
 }
 
 std::vector<std::string> small_map() {

@@ -1,6 +1,7 @@
 // The service graph of one vehicle as real processes.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
@@ -21,6 +22,9 @@ struct Vehicle {
   /// --config and --set, then `more`.
   [[nodiscard]] std::vector<std::string> arguments(const std::vector<std::string>& more = {}) const;
 };
+
+/// A UDP port that nobody uses at this moment.
+std::uint16_t free_port();
 
 /// A map small enough for a test: 128 x 128 x 32 voxels, four maps a lidar.
 std::vector<std::string> small_map();

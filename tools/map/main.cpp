@@ -9,6 +9,7 @@
 #include "services/common/backend_word.hpp"
 #include "services/common/cli.hpp"
 #include "services/common/log.hpp"
+#include "services/ingest/loss_words.hpp"
 #include "tools/map/offline.hpp"
 #include "tools/map/output.hpp"
 
@@ -107,6 +108,9 @@ int run(const gvom::services::VehicleConfig& config, const Options& options) {
       return to_int(ExitCode::unavailable);
     }
   }
+  for (const auto& lidar : mapper->lidars())
+    for (const std::string& line : gvom::ingest::explain(lidar.losses, mapper->odometry()))
+      spdlog::warn("lidar {}: {}", lidar.name, line);
   spdlog::info("{} maps in {}; {} sweeps without odometry around them, {} maps refused", maps, options.out,
                mapper->sweeps_without_odometry(), mapper->maps_refused());
   return to_int(maps == 0 && code == ExitCode::ok ? ExitCode::bad_data : code);

@@ -1,6 +1,7 @@
 #include "tools/map/offline.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "services/common/odometry_file.hpp"
@@ -27,7 +28,8 @@ OfflineExpected<OfflineMapper> OfflineMapper::open(const services::VehicleConfig
   OfflineMapper mapper;
   mapper.deskew_ = deskew;
   if (auto added = mapper.add_fusion(config); !added) return tl::unexpected(added.error());
-  if (auto added = mapper.add_odometry(odometry); !added) return tl::unexpected(added.error());
+  if (auto added = mapper.add_odometry(config.odometry, odometry); !added)
+    return tl::unexpected(added.error());
   for (const services::LidarConfig& lidar : config.lidars) {
     if (lidar.source.empty()) continue;
     if (auto added = mapper.add_lidar(config, lidar); !added) return tl::unexpected(added.error());
@@ -49,17 +51,22 @@ OfflineExpected<void> OfflineMapper::add_fusion(const services::VehicleConfig& c
   return {};
 }
 
-OfflineExpected<void> OfflineMapper::add_odometry(const std::string& odometry) {
+OfflineExpected<void> OfflineMapper::add_odometry(services::OdometryConfig config,
+                                                  const std::string& odometry) {
   std::vector<StampedPose> poses{{kLongAgo_ns, {}}, {-kLongAgo_ns, {}}};
-  if (odometry != "static") {
+  if (odometry == "static") {
+    config.max_gap_s = std::numeric_limits<double>::infinity();
+  } else {
     auto recorded = services::read_odometry_source(odometry, warnings_);
     if (!recorded) return bad_data(recorded.error());
     poses = std::move(*recorded);
   }
-  odometry_ = std::make_unique<OdometryBuffer>(poses.size());
+  using ingest::OdometryIntake;
+  odometry_ = std::make_unique<OdometryIntake>(config, OdometryIntake::Sweeps::recorded, poses.size());
   for (const StampedPose& pose : poses)
-    if (odometry_->add(pose) != OdometryBuffer::Add::added)
+    if (odometry_->take({pose}, 0) == ingest::Taken::not_a_pose)
       return bad_data(odometry + ": a pose is too far away to be mapped");
+  odometry_->take({poses.back(), 0, true}, 0);
   return {};
 }
 
@@ -93,15 +100,34 @@ OfflineExpected<void> OfflineMapper::advance(Lidar& lidar) {
 // False if the sweep did not become part of the map.
 OfflineExpected<bool> OfflineMapper::map_sweep(std::size_t index, MappedSweep& mapped) {
   Lidar& lidar = lidars_[index];
-  const auto shape = lidar.mapper->count(lidar.sweep, *odometry_);
-  if (!shape && shape.error().reason == SweepError::Reason::device) return unavailable(shape.error().what);
-  if (!shape) return ++without_odometry_, false;
+  const ingest::Placement placement = odometry_->judge(lidar.sweep, 0, 0);
+  if (placement.when != ingest::Placement::When::now) {
+    lidar.losses.count(placement.why, lidar.sweep.stamp_ns);
+    return false;
+  }
+  const auto shape = lidar.mapper->count(lidar.sweep, odometry_->poses());
+  if (!shape) return unavailable(shape.error().what);
   auto map = std::make_unique<BrickMapStorage>();
   if (const auto written = lidar.mapper->write(map->resize(*shape)); !written)
     return unavailable(written.error().what);
+  const auto fused = fuse(index, std::move(map));
+  if (!fused || !*fused) return fused;
+  ++lidar.mapped;
+  mapped = {lidar.name, lidar.sweep.stamp_ns, lidar.sweep.complete, lidar.mapper->filter_counts()};
+  return true;
+}
+
+// As gvom-fusion does: after a jump the window begins anew.
+OfflineExpected<bool> OfflineMapper::fuse(std::size_t index, std::unique_ptr<BrickMapStorage> map) {
+  const Lidar& lidar = lidars_[index];
+  const std::int64_t stamp_ns = lidar.sweep.stamp_ns;
+  if (const std::int64_t jump_ns = odometry_->poses().jump_before(stamp_ns); jump_ns > jump_ns_) {
+    jump_ns_ = jump_ns;
+    fuser_->reset();
+    window_.clear();
+  }
   const std::uint64_t token = next_token_++;
-  const BrickMapView view =
-      map->view(lidar.mapper->grid(), lidar.sweep.stamp_ns, lidar.mapper->T_odom_base());
+  const BrickMapView view = map->view(lidar.mapper->grid(), stamp_ns, lidar.mapper->T_odom_base());
   window_.emplace(token, std::move(map));
   const auto result = fuser_->add({view, static_cast<int>(index), token});
   if (!result) return unavailable(result.error().what);
@@ -110,8 +136,13 @@ OfflineExpected<bool> OfflineMapper::map_sweep(std::size_t index, MappedSweep& m
     return ++refused_, false;
   }
   for (const WindowMap& left : fuser_->window().left()) window_.erase(left.token);
-  mapped = {lidar.name, lidar.sweep.stamp_ns, lidar.sweep.complete, lidar.mapper->filter_counts()};
   return true;
+}
+
+std::uint64_t OfflineMapper::sweeps_without_odometry() const {
+  std::uint64_t sum = 0;
+  for (const Lidar& lidar : lidars_) sum += lidar.losses.all();
+  return sum;
 }
 
 OfflineExpected<bool> OfflineMapper::next(MappedSweep& mapped) {

@@ -15,6 +15,7 @@
 #include "core/open_backend.hpp"
 #include "services/common/exit_code.hpp"
 #include "services/common/vehicle_config.hpp"
+#include "services/ingest/odometry_intake.hpp"
 #include "services/ingest/source.hpp"
 
 namespace gvom::tools {
@@ -52,8 +53,9 @@ class OfflineMapper {
                                              const std::string& odometry, bool deskew = true);
 
   /// Maps and fuses the next sweep in order of stamps (ties: by lidar name). Nothing at the end. Sweeps that
-  /// the odometry does not bracket are passed over and counted (R3). An error bad_data ends one lidar's
-  /// recording: the sweeps before it were mapped. An error unavailable ends everything.
+  /// the odometry cannot place are passed over and counted, by the code that ingest asks (R3). After a jump
+  /// of the odometry the map begins anew. An error bad_data ends one lidar's recording: the sweeps before it
+  /// were mapped. An error unavailable ends everything.
   OfflineExpected<bool> next(MappedSweep& mapped);
 
   /// Layers of what is fused so far.
@@ -64,7 +66,8 @@ class OfflineMapper {
   /// What a person should hear of the odometry.
   [[nodiscard]] const std::vector<std::string>& odometry_warnings() const { return warnings_; }
   [[nodiscard]] const BackendWords& fusion_backend() const { return fusion_backend_; }
-  [[nodiscard]] std::uint64_t sweeps_without_odometry() const { return without_odometry_; }
+  [[nodiscard]] const ingest::OdometryIntake& odometry() const { return *odometry_; }
+  [[nodiscard]] std::uint64_t sweeps_without_odometry() const;  ///< Of all lidars.
   [[nodiscard]] std::uint64_t maps_refused() const { return refused_; }
 
   struct Lidar {
@@ -74,25 +77,28 @@ class OfflineMapper {
     BackendWords backend;
     Sweep sweep;  // the next one
     bool ended = false;
+    ingest::SweepLosses losses;  // of sweeps that the odometry could not place; explain() has the words
+    std::uint64_t mapped = 0;
   };
   [[nodiscard]] const std::vector<Lidar>& lidars() const { return lidars_; }
 
  private:
-  OfflineExpected<void> add_odometry(const std::string& odometry);
+  OfflineExpected<void> add_odometry(services::OdometryConfig config, const std::string& odometry);
   OfflineExpected<void> add_fusion(const services::VehicleConfig& config);
   OfflineExpected<void> add_lidar(const services::VehicleConfig& config, const services::LidarConfig& lidar);
   OfflineExpected<void> advance(Lidar& lidar);
   OfflineExpected<bool> map_sweep(std::size_t index, MappedSweep& mapped);
+  OfflineExpected<bool> fuse(std::size_t index, std::unique_ptr<BrickMapStorage> map);
 
   std::vector<Lidar> lidars_;  // sorted by name
-  std::unique_ptr<OdometryBuffer> odometry_;
+  std::unique_ptr<ingest::OdometryIntake> odometry_;
   std::vector<std::string> warnings_;                                           // of its file
   std::unordered_map<std::uint64_t, std::unique_ptr<BrickMapStorage>> window_;  // by token
   std::unique_ptr<MapFuser> fuser_;                                             // reads what the window holds
   BackendWords fusion_backend_;
   bool deskew_ = true;
   std::uint64_t next_token_ = 0;
-  std::uint64_t without_odometry_ = 0;
+  std::int64_t jump_ns_ = 0;  // the map began anew with the first sweep after it
   std::uint64_t refused_ = 0;
   std::optional<OfflineError> error_;  // found while a sweep was read ahead; told after those before it
 };

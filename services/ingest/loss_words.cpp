@@ -1,0 +1,59 @@
+#include "services/ingest/loss_words.hpp"
+
+#include <fmt/format.h>
+
+namespace gvom::ingest {
+
+namespace {
+
+double seconds(std::int64_t time_ns) {
+  return static_cast<double>(time_ns) * 1e-9;
+}
+
+std::string span_text(const TimeSpan& span) {
+  return fmt::format("{:.1f} .. {:.1f} s", seconds(span.first_ns), seconds(span.last_ns));
+}
+
+/// The key that decides, if there is one.
+std::string key_of(SweepLoss why, const services::OdometryConfig& config) {
+  if (why == SweepLoss::gap) return fmt::format(" (odometry.max_gap_s is {})", config.max_gap_s);
+  if (why == SweepLoss::jump) return fmt::format(" (odometry.max_speed_mps is {})", config.max_speed_mps);
+  if (why == SweepLoss::timeout) return fmt::format(" (odometry.timeout_s is {})", config.timeout_s);
+  return {};
+}
+
+}  // namespace
+
+const char* words_of(SweepLoss why) {
+  switch (why) {
+    case SweepLoss::before_odometry:
+      return "before the odometry";
+    case SweepLoss::after_odometry:
+      return "after the odometry";
+    case SweepLoss::gap:
+      return "in a gap of the odometry";
+    case SweepLoss::jump:
+      return "across a jump of the odometry";
+    case SweepLoss::timeout:
+      return "no odometry in time";
+    case SweepLoss::count:
+      break;
+  }
+  return "";
+}
+
+std::vector<std::string> explain(const SweepLosses& losses, const OdometryIntake& odometry) {
+  const std::string odometry_span =
+      odometry.span() ? "odometry spans " + span_text(*odometry.span()) : "no odometry came";
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(SweepLoss::count); ++i) {
+    const auto why = static_cast<SweepLoss>(i);
+    const SweepLosses::Of& of = losses.of(why);
+    if (of.count == 0) continue;
+    lines.push_back(fmt::format("{} sweeps not mapped: {}{}: {}, these sweeps {}", of.count, words_of(why),
+                                key_of(why, odometry.config()), odometry_span, span_text(of.stamps)));
+  }
+  return lines;
+}
+
+}  // namespace gvom::ingest

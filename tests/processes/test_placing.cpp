@@ -1,0 +1,158 @@
+// Which sweeps odometry can place: gvom-map, a replay and live packets give the same answer and the same
+// bytes.
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <fstream>
+
+#include "tests/ingest/ouster_builder.hpp"
+#include "tests/processes/observer.hpp"
+#include "tests/processes/recordings.hpp"
+#include "tests/tools/temporary_folder.hpp"
+
+using namespace gvom::test;
+using gvom::ipc::test::eventually;
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr int kFrames = 30;
+constexpr int kColumns = 64;  // a millisecond each, then 36 ms of nothing
+constexpr int kFirstReturn = 8;
+constexpr int kLastReturn = 47;  // what is beside them is sky
+
+/// A sensor whose seam lies in a sector of sky: the first and the last columns of a turn have no return.
+OusterSensor sensor() {
+  OusterSensor sensor;
+  sensor.profile = "RNG19_RFL8_SIG16_NIR16";
+  sensor.altitudes = "[-6, -8, -10, -12, -14, -16, -18, -20]";
+  sensor.azimuths = "[0, 0, 0, 0, 0, 0, 0, 0]";
+  sensor.window = "[0, 63]";
+  sensor.beams = 8;
+  sensor.columns = kColumns;
+  return sensor;
+}
+
+void write_recording(const std::string& folder) {
+  write_text(folder + "/meta.json", sensor().json());
+  PcapWriter pcap(folder + "/sky.pcap");
+  for (int frame_id = 0; frame_id < kFrames; ++frame_id)
+    for (int first = 0; first < kColumns; first += 4) {
+      const bool sky = first < kFirstReturn || first > kLastReturn;
+      pcap.add(frame(plain_packet(sensor(), frame_id, first, sky ? 0 : 8000)),
+               column_time_ns(frame_id, first + 3));
+    }
+  pcap.write();
+}
+
+struct Drive {
+  double first_s = 1.0;
+  double period_s = 0.05;
+  double last_s = 4.0;
+  double gap_from_s = 1e9;  // no pose after it, and before gap_to_s
+  double gap_to_s = 1e9;
+  double jump_at_s = 1e9;  // from here on 5 m further
+};
+
+/// At 2 m/s along x.
+void write_odometry(const std::string& path, const Drive& drive) {
+  std::ofstream file(path);
+  for (int i = 0;; ++i) {
+    const double t = drive.first_s + i * drive.period_s;
+    if (t > drive.last_s + 1e-6) return;
+    if (t > drive.gap_from_s && t < drive.gap_to_s) continue;
+    char line[128];
+    std::snprintf(line, sizeof line, "%.6f %.6f 0 0 0 0 0 1\n", t, 2 * t + (t >= drive.jump_at_s ? 5 : 0));
+    file << line;
+  }
+}
+
+Vehicle vehicle_of(const std::string& folder, const std::string& source) {
+  const std::string file = folder + "/vehicle.yaml";
+  std::ofstream(file) << "name: sky\nodometry: {source: tum:odometry.tum, timeout_s: 10}\n"
+                      << "lidars:\n  top:\n    source: '" << source << "'\n    max_returns: 4096\n"
+                      << "    T_base_sensor: {x: 0, y: 0, z: 1.5, roll: 0, pitch: 0, yaw: 0}\n";
+  return {file, {"top"}, folder, small_map()};
+}
+
+/// What a run mapped, and the words with which it told of the rest.
+struct Run {
+  std::string map;
+  int maps = 0;
+  std::string output;
+};
+
+Run replay(const Vehicle& vehicle, const std::string& rate) {
+  const std::string pictures = vehicle.folder + "/pictures-" + rate;
+  Graph graph(vehicle);
+  graph.start_readers();
+  const auto snapshot = graph.start("gvom-snapshot", {"--out", pictures, "--final", "--npy"});
+  graph.play_through(rate);
+  CHECK(snapshot->stop() == 0);
+  graph.stop();
+  const std::string output = graph.ingest("top").output();
+  const auto numbers = numbers_before(output, "sweeps mapped");
+  INFO(output);
+  REQUIRE(numbers.size() == 2);
+  CHECK(numbers[1] == kFrames);
+  return {last_map(pictures), numbers[0], output};
+}
+
+/// gvom-map and a replay at both kinds of rate map so many sweeps, to the same bytes.
+std::string check_same(const std::string& folder, const Drive& drive, int expected) {
+  write_odometry(folder + "/odometry.tum", drive);
+  const Vehicle vehicle = vehicle_of(folder, "ouster:sky.pcap?meta=meta.json");
+  const std::string maps = map_offline(vehicle, "maps");
+  CHECK(map_count(maps) == expected);
+  std::string told;
+  for (const char* rate : {"10", "max"}) {
+    INFO("--rate " << rate);
+    const Run run = replay(vehicle, rate);
+    CHECK(run.maps == expected);
+    CHECK(differences(last_map(maps), run.map) == "");
+    told = run.output;
+  }
+  return told;
+}
+
+}  // namespace
+
+TEST_CASE("columns without a return need no odometry: all sweeps with sky at the seam are mapped") {
+  const TemporaryFolder folder;
+  write_recording(folder.path());
+  Drive drive;
+  drive.first_s = 1.005;  // after the first columns of the first sweep
+  drive.last_s = 3.955;   // between the last return of the last sweep and its last column
+  check_same(folder.path(), drive, kFrames);
+
+  const std::string expected = last_map(folder.path() + "/maps");
+  const std::uint16_t port = free_port();
+  Graph graph(vehicle_of(folder.path(), "ouster-udp:" + std::to_string(port) + "?meta=meta.json"));
+  const Observer observer(folder.path());
+  REQUIRE(observer.is_up());
+  graph.start_readers();
+  const auto snapshot = graph.start("gvom-snapshot", {"--out", folder.path() + "/live", "--final", "--npy"});
+  REQUIRE(graph.ingest("top").says("top from"));
+  const auto odometry = graph.replay({"--rate", "1"});
+  Program play("gvom-play", {"sky.pcap", "--port", std::to_string(port)}, folder.path());
+  CHECK(play.wait() == 0);
+  CHECK(odometry->wait() == 0);
+  CHECK(eventually([&] { return observer.counter("gvom-ingest-top", "sweeps_mapped") == kFrames; }));
+  CHECK(snapshot->stop() == 0);
+  CHECK(differences(expected, last_map(folder.path() + "/live")) == "");
+  graph.stop();
+}
+
+TEST_CASE("a gap and a jump of recorded odometry mean the same in one process and in several") {
+  const TemporaryFolder folder;
+  write_recording(folder.path());
+  Drive gap;
+  gap.gap_from_s = 1.99;
+  gap.gap_to_s = 2.61;  // 1.95 .. 2.65 s: sweeps from 2.0 to 2.6 s
+  CHECK_THAT(check_same(folder.path(), gap, kFrames - 7),
+             Catch::Contains("7 sweeps not mapped: in a gap of the odometry (odometry.max_gap_s is 0.5)"));
+  Drive jump;
+  jump.jump_at_s = 2.02;  // between 2.00 and 2.05 s: across the sweep from 2.008 to 2.047 s
+  CHECK_THAT(check_same(folder.path(), jump, kFrames - 1),
+             Catch::Contains("1 sweeps not mapped: across a jump of the odometry"));
+}
