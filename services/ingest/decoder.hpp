@@ -20,6 +20,10 @@ class Decoder {
   /// What recognises() looks for, in words.
   [[nodiscard]] virtual std::string expects() const = 0;
 
+  /// Whether a packet that is not recognised is one that such a sensor sends beside its lidar packets (IMU,
+  /// position, zones), maybe to the same port.
+  [[nodiscard]] virtual bool is_side_packet(const Packet& packet) const = 0;
+
   /// Whether a packet that is recognised is of the very sensor that the source is of, as far as it tells.
   [[nodiscard]] virtual bool is_of_this_sensor(const Packet& /*packet*/) const { return true; }
 

@@ -15,6 +15,8 @@ constexpr int kMaxFramesLost = 4;  // a longer gap is silence, not loss
 constexpr double kMostFramesPerSecond = 20;
 constexpr std::uint64_t kMaxTimestampNs = std::uint64_t{1} << 62;
 constexpr std::uint64_t kMaxRepeatNs = 1'000'000'000;
+constexpr double kEncoderTurn = 90112;
+constexpr double kMostColumnsOff = 1.4;  // modes differ by factors of 2
 
 /// The pixels of one column, with their ranges read by `range_mm`. Pixels without a return leave nothing;
 /// the write is unconditional and only the count depends on the range, so that nothing mispredicts.
@@ -48,12 +50,51 @@ OusterDecoder::OusterDecoder(OusterMetadata metadata, const SourceOptions& optio
 }
 
 bool OusterDecoder::recognises(const Packet& packet) const {
-  return packet.size == metadata_.packet_size();
+  return packet.size == metadata_.packet_size() && other_columns(packet.data) == 0;
+}
+
+/// How many columns a turn has, if the packet's own columns prove it to be another number than the
+/// metadata's; else 0. The encoder's count (legacy) tells it, the columns' distance in time where the rate of
+/// turns is known, and columns beyond the frame, if all are.
+int OusterDecoder::other_columns(const std::uint8_t* packet) const {
+  std::optional<OusterColumn> first, last;
+  const std::uint8_t* bytes = packet + metadata_.layout.packet_header;
+  for (int i = 0; i < metadata_.columns_per_packet; ++i) {
+    const OusterColumn column = read_ouster_column(metadata_.layout, bytes, metadata_.beams());
+    bytes += metadata_.layout.column_size(metadata_.beams());
+    if (!column.valid) continue;
+    if (!first) first = column;
+    last = column;
+  }
+  const int frame = metadata_.columns_per_frame;
+  if (!first) return 0;
+  if (std::min(first->measurement_id, last->measurement_id) >= frame) return last->measurement_id + 1;
+  const int columns = last->measurement_id - first->measurement_id;
+  if (columns < 1 || last->timestamp_ns <= first->timestamp_ns) return 0;
+  double turn = 0;  // of which the columns are a part
+  if (last->encoder > first->encoder)
+    turn = kEncoderTurn / static_cast<double>(last->encoder - first->encoder);
+  else if (metadata_.turns_per_s > 0)
+    turn = 1e9 / metadata_.turns_per_s / static_cast<double>(last->timestamp_ns - first->timestamp_ns);
+  const double found = turn * columns;
+  return found > kMostColumnsOff * frame || (found > 0 && found * kMostColumnsOff < frame)
+             ? static_cast<int>(std::min(found, 1e6))
+             : 0;
 }
 
 std::string OusterDecoder::expects() const {
   return std::to_string(metadata_.beams()) + " beams, " + std::string(metadata_.layout.name) +
          ": packets of " + std::to_string(metadata_.packet_size()) + " bytes";
+}
+
+/// IMU packets of before firmware 3.2 have no header, later ones the types 2 (IMU) and 3 (zones).
+bool OusterDecoder::is_side_packet(const Packet& packet) const {
+  constexpr std::size_t kImuSize = 48;
+  if (packet.size == kImuSize) return true;
+  if (metadata_.layout.header == OusterHeader::none || packet.size < metadata_.layout.packet_header)
+    return false;
+  const std::uint8_t type = packet.data[0];
+  return packet.size != metadata_.packet_size() && (type == 2 || type == 3) && is_of_this_sensor(packet);
 }
 
 /// A packet or metadata without a serial number proves nothing.
@@ -64,23 +105,29 @@ bool OusterDecoder::is_of_this_sensor(const Packet& packet) const {
 
 void OusterDecoder::name_other(const Packet& packet, KindText& out) const {
   out[0] = '\0';
-  if (!recognises(packet) || is_of_this_sensor(packet)) return;
+  if (packet.size != metadata_.packet_size()) return;
+  if (const int columns = other_columns(packet.data); columns != 0) {
+    std::snprintf(out.data(), out.size(), "about %d columns a turn, the metadata has %d", columns,
+                  metadata_.columns_per_frame);
+    return;
+  }
+  if (is_of_this_sensor(packet)) return;
   std::snprintf(out.data(), out.size(), "serial number %llu, the metadata is of %llu",
                 static_cast<unsigned long long>(sensor_id(packet)),
                 static_cast<unsigned long long>(metadata_.serial));
 }
 
 std::string OusterDecoder::override_advice(const Packet& packet) const {
+  if (other_columns(packet.data) != 0) return "fetch the metadata that belongs to the sensor's mode";
   return "beam angles are each sensor's own; if the metadata is right for these packets all the same, say so "
          "in "
          "the source: serial=" +
          std::to_string(sensor_id(packet));
 }
 
-/// Packets of the newer profiles carry the sensor's serial number, 5 bytes.
+/// Packets of the newer profiles carry the sensor's serial number.
 std::uint64_t OusterDecoder::sensor_id(const Packet& packet) const {
-  if (metadata_.layout.profile == OusterProfile::legacy) return 0;
-  return load_le<std::uint64_t>(packet.data + 7) & 0xFFFFFFFFFFu;
+  return metadata_.layout.header == OusterHeader::none ? 0 : ouster_serial(metadata_.layout, packet.data);
 }
 
 double OusterDecoder::most_packets_per_s() const {
@@ -96,7 +143,7 @@ void OusterDecoder::reset() {
 /// The frame of a packet; nothing if it holds no valid column to tell it.
 std::optional<std::uint16_t> OusterDecoder::frame_of(const std::uint8_t* packet) const {
   const OusterLayout& layout = metadata_.layout;
-  if (layout.profile != OusterProfile::legacy) return load_le<std::uint16_t>(packet + 2);
+  if (layout.header != OusterHeader::none) return ouster_frame(layout, packet);
   // A column that is not valid may hold anything, so the first valid one tells.
   for (int i = 0; i < metadata_.columns_per_packet; ++i) {
     const auto column =
@@ -189,7 +236,7 @@ bool OusterDecoder::close(Sweep& out) {
 }
 
 bool OusterDecoder::usable(const OusterColumn& column) const {
-  const bool other_frame = metadata_.layout.profile == OusterProfile::legacy && column.frame_id != frame_;
+  const bool other_frame = metadata_.layout.header == OusterHeader::none && column.frame_id != frame_;
   return column.valid && !other_frame && column.timestamp_ns <= kMaxTimestampNs &&
          column.measurement_id < columns_.size() &&
          columns_[column.measurement_id] != ColumnState::outside_window;
@@ -226,28 +273,28 @@ void OusterDecoder::use_column(const std::uint8_t* bytes, const OusterColumn& co
                   project(bytes + metadata_.layout.column_header, column.measurement_id, index));
 }
 
+/// A second return counts where it is another than the first.
 std::size_t OusterDecoder::project(const std::uint8_t* pixels, std::uint16_t measurement_id,
                                    std::uint32_t time_index) {
   const auto& transform = geometry_.columns[measurement_id];
-  const auto run = [&](auto range_mm, std::size_t at) {
-    return project_pixels(geometry_, transform, time_index, range_mm, scratch_.data() + at);
+  const OusterLayout& layout = metadata_.layout;
+  const auto both = [&](auto range_mm) {
+    const auto first = [=](std::size_t i) { return range_mm(pixels + layout.pixel * i); };
+    const std::size_t count = project_pixels(geometry_, transform, time_index, first, scratch_.data());
+    if (layout.second == 0) return count;
+    const auto second = [=](std::size_t i) {
+      const std::uint32_t range = range_mm(pixels + layout.pixel * i + layout.second);
+      return range == first(i) ? 0u : range;
+    };
+    return count + project_pixels(geometry_, transform, time_index, second, scratch_.data() + count);
   };
-  switch (metadata_.layout.profile) {
-    case OusterProfile::legacy:
-      return run([=](std::size_t i) { return load_le<std::uint32_t>(pixels + 12 * i) & 0xFFFFFu; }, 0);
-    case OusterProfile::rng15:
-      return run([=](std::size_t i) { return (load_le<std::uint16_t>(pixels + 4 * i) & 0x7FFFu) * 8u; }, 0);
-    case OusterProfile::rng19:
-      return run([=](std::size_t i) { return load_le<std::uint32_t>(pixels + 12 * i) & 0x7FFFFu; }, 0);
-    case OusterProfile::rng19_dual: {
-      const auto first = [=](std::size_t i) { return load_le<std::uint32_t>(pixels + 16 * i) & 0x7FFFFu; };
-      const auto second = [=](std::size_t i) {
-        const std::uint32_t range = load_le<std::uint32_t>(pixels + 16 * i + 4) & 0x7FFFFu;
-        return range == first(i) ? 0u : range;
-      };
-      const std::size_t count = run(first, 0);
-      return count + run(second, count);
-    }
+  switch (layout.range) {
+    case OusterRange::bits20:
+      return both([](const std::uint8_t* pixel) { return load_le<std::uint32_t>(pixel) & 0xFFFFFu; });
+    case OusterRange::bits19:
+      return both([](const std::uint8_t* pixel) { return load_le<std::uint32_t>(pixel) & 0x7FFFFu; });
+    case OusterRange::bits15_by_8:
+      return both([](const std::uint8_t* pixel) { return (load_le<std::uint16_t>(pixel) & 0x7FFFu) * 8u; });
   }
   return 0;
 }

@@ -20,6 +20,7 @@ class OusterDecoder final : public Decoder {
 
   [[nodiscard]] bool recognises(const Packet& packet) const override;
   [[nodiscard]] std::string expects() const override;
+  [[nodiscard]] bool is_side_packet(const Packet& packet) const override;
   [[nodiscard]] bool is_of_this_sensor(const Packet& packet) const override;
   void name_other(const Packet& packet, KindText& out) const override;
   [[nodiscard]] std::string override_advice(const Packet& packet) const override;
@@ -33,6 +34,7 @@ class OusterDecoder final : public Decoder {
   enum class ColumnState : std::uint8_t { missing, received, outside_window };
   enum class Belongs { open_frame, next_frame, closed_frame, just_completed, nowhere };
 
+  [[nodiscard]] int other_columns(const std::uint8_t* packet) const;
   [[nodiscard]] std::optional<std::uint16_t> frame_of(const std::uint8_t* packet) const;
   [[nodiscard]] Belongs classify(std::uint16_t frame) const;
   [[nodiscard]] bool is_repeated(const std::uint8_t* packet) const;

@@ -5,11 +5,24 @@
 namespace gvom::ingest {
 namespace {
 
+using Header = OusterHeader;
+using Range = OusterRange;
+
+// The maker's sensor documentation and its SDK (ouster_client, packet formats). What is not range is not
+// read: reflectivity, signal, near infrared, window, zones, colours.
 constexpr OusterLayout kLayouts[] = {
-    {OusterProfile::legacy, "LEGACY", 0, 16, 12, 4, 0},
-    {OusterProfile::rng15, "RNG15_RFL8_NIR8", 32, 12, 4, 0, 32},
-    {OusterProfile::rng19, "RNG19_RFL8_SIG16_NIR16", 32, 12, 12, 0, 32},
-    {OusterProfile::rng19_dual, "RNG19_RFL8_SIG16_NIR16_DUAL", 32, 12, 16, 0, 32},
+    {"LEGACY", Header::none, Range::bits20, 12, 0, 0, 16, 4, 0},
+    {"RNG15_RFL8_NIR8", Header::standard, Range::bits15_by_8, 4, 0},
+    {"RNG15_RFL8_WIN8", Header::standard, Range::bits15_by_8, 4, 0},
+    {"RNG15_RFL8_NIR8_DUAL", Header::standard, Range::bits15_by_8, 8, 4},
+    {"FUSA_RNG15_RFL8_NIR8_DUAL", Header::fusa, Range::bits15_by_8, 8, 4},
+    {"RNG15_RFL8_NIR8_ZONE16", Header::standard, Range::bits15_by_8, 8, 0},
+    {"RNG19_RFL8_SIG16_NIR16", Header::standard, Range::bits19, 12, 0},
+    {"RNG19_RFL8_SIG16_NIR16_ZONE16", Header::standard, Range::bits19, 12, 0},
+    {"RNG19_RFL8_SIG16_NIR16_DUAL", Header::standard, Range::bits19, 16, 4},
+    {"RNG19_RFL8_SIG16_ZONE16_DUAL", Header::standard, Range::bits19, 16, 4},
+    {"RNG19_RFL8_SIG16_NIR16_RGB16", Header::standard, Range::bits19, 16, 0},
+    {"RNG19_RFL8_SIG16_NIR16_RGB16_DUAL", Header::standard, Range::bits19, 20, 4},
 };
 
 }  // namespace
@@ -31,11 +44,21 @@ std::string supported_ouster_profiles() {
   return names;
 }
 
+std::uint16_t ouster_frame(const OusterLayout& layout, const std::uint8_t* packet) {
+  return load_le<std::uint16_t>(packet + (layout.header == OusterHeader::fusa ? 4 : 2));
+}
+
+std::uint64_t ouster_serial(const OusterLayout& layout, const std::uint8_t* packet) {
+  constexpr std::uint64_t kFiveBytes = 0xFFFFFFFFFF;
+  return load_le<std::uint64_t>(packet + (layout.header == OusterHeader::fusa ? 11 : 7)) & kFiveBytes;
+}
+
 OusterColumn read_ouster_column(const OusterLayout& layout, const std::uint8_t* column, std::size_t beams) {
-  OusterColumn out{load_le<std::uint64_t>(column), load_le<std::uint16_t>(column + 8), 0, false};
-  if (layout.profile == OusterProfile::legacy) {
+  OusterColumn out{load_le<std::uint64_t>(column), load_le<std::uint16_t>(column + 8), 0, 0, false};
+  if (layout.header == OusterHeader::none) {
     const std::uint8_t* status = column + layout.column_header + beams * layout.pixel;
     out.frame_id = load_le<std::uint16_t>(column + 10);
+    out.encoder = load_le<std::uint32_t>(column + 12);
     out.valid = load_le<std::uint32_t>(status) == 0xFFFFFFFFu;
   } else {
     out.valid = (load_le<std::uint16_t>(column + 10) & 1) != 0;

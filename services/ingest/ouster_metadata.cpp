@@ -1,84 +1,41 @@
 #include "services/ingest/ouster_metadata.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fstream>
-#include <initializer_list>
 #include <utility>
 
-#include <nlohmann/json.hpp>
+#include "services/ingest/metadata_reader.hpp"
 
 namespace gvom::ingest {
 namespace {
 
-using Json = nlohmann::json;
+using Reader = MetadataReader;
 
 constexpr std::size_t kMaxBeams = 512;
 constexpr int kMaxColumns = 8192;
 constexpr double kDefaultBeamOffsetMm = 15.806;
 constexpr std::array<double, 16> kDefaultLidarToSensor{-1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 36.18, 0, 0, 0, 1};
 
-/// A value for a message: short, and of a nested one only what it is (text is made of it recursively).
-std::string shown(const Json& json) {
-  constexpr std::size_t kLongest = 60;
-  if (json.is_structured()) return std::string("an ") + json.type_name();
-  const std::string text = json.dump();
-  return text.size() <= kLongest
-             ? text
-             : std::string(json.type_name()) + " of " + std::to_string(text.size()) + " characters";
+/// Beams run from the top to the bottom, or the other way; neighbours of a real sensor may change places by a
+/// little. A garbled list does not, and all of it alike is no sensor with beams.
+void check_altitudes(Reader& reader, const std::vector<double>& angles) {
+  constexpr const char* kKey = "beam_altitude_angles";
+  constexpr double kMostBack_deg = 1;
+  if (angles.size() < 2) return;
+  const auto [low, high] = std::minmax_element(angles.begin(), angles.end());
+  if (*high - *low < 1e-6) {
+    return reader.fail(kKey, "all " + std::to_string(angles.size()) + " angles are " + text_of(angles[0]) +
+                                 ": not those of a sensor");
+  }
+  const double down = angles.front() > angles.back() ? 1 : -1;
+  for (std::size_t i = 1; i < angles.size(); ++i) {
+    if ((angles[i] - angles[i - 1]) * down < kMostBack_deg) continue;
+    return reader.fail(kKey, "the angles go from " + text_of(angles[i - 1]) + " to " + text_of(angles[i]) +
+                                 " where they should go on to " + text_of(angles.back()));
+  }
 }
-
-/// Reads keys one by one and remembers the first thing that is wrong.
-class Reader {
- public:
-  Reader(const Json& root, std::string path, std::vector<std::string>& warnings)
-      : root_(root), path_(std::move(path)), warnings_(warnings) {}
-
-  /// `key` in the first of `sections` that has it, else at the top; null if it is nowhere.
-  const Json* find(std::initializer_list<const char*> sections, const char* key) const {
-    for (const char* section : sections) {
-      const auto found = root_.find(section);
-      if (found != root_.end() && found->is_object() && found->contains(key)) return &(*found)[key];
-    }
-    const auto found = root_.find(key);
-    return found == root_.end() ? nullptr : &*found;
-  }
-
-  std::vector<double> numbers(const Json& json, const char* key, double limit) {
-    std::vector<double> values;
-    if (!json.is_array()) fail(key, "expected a list of numbers");
-    for (const Json& item : json) {
-      const double value = item.is_number() ? item.get<double>() : std::nan("");
-      if (!(std::abs(value) <= limit)) {
-        fail(key, "expected numbers of at most " + std::to_string(static_cast<int>(limit)) + ", got " +
-                      shown(item));
-        break;
-      }
-      values.push_back(value);
-    }
-    return values;
-  }
-
-  int integer(const Json& json, const char* key, int low, int high) {
-    const bool fits = json.is_number_integer() && json >= low && json <= high;
-    if (fits) return json.get<int>();
-    fail(key, "expected a whole number of " + std::to_string(low) + " .. " + std::to_string(high) + ", got " +
-                  shown(json));
-    return low;
-  }
-
-  void fail(const std::string& key, const std::string& reason) {
-    if (error_.empty()) error_ = path_ + ": " + key + ": " + reason;
-  }
-  void warn(const std::string& text) { warnings_.push_back(path_ + ": " + text); }
-  [[nodiscard]] const std::string& error() const { return error_; }
-
- private:
-  const Json& root_;
-  std::string path_;
-  std::vector<std::string>& warnings_;
-  std::string error_;
-};
 
 void read_angles(Reader& reader, OusterMetadata& out) {
   const std::pair<const char*, std::vector<double>*> lists[] = {
@@ -97,6 +54,7 @@ void read_angles(Reader& reader, OusterMetadata& out) {
     reader.fail("beam_azimuth_angles", std::to_string(out.beam_azimuth_deg.size()) + " angles, but " +
                                            std::to_string(beams) + " in beam_altitude_angles");
   }
+  check_altitudes(reader, out.beam_altitude_deg);
 }
 
 int columns_of_mode(Reader& reader) {
@@ -131,6 +89,39 @@ void read_profile(Reader& reader, OusterMetadata& out) {
   out.layout = *layout;
 }
 
+/// Firmware 3.2 and later say which header packets have; before, the profile's name does.
+void read_header(Reader& reader, OusterMetadata& out) {
+  constexpr const char* kKey = "header_type";
+  const Json* json = reader.find({"lidar_data_format", "data_format", "config_params"}, kKey);
+  if (json == nullptr || out.layout.header == OusterHeader::none) return;
+  if (*json == "STANDARD") {
+    out.layout.header = OusterHeader::standard;
+  } else if (*json == "FUSA") {
+    out.layout.header = OusterHeader::fusa;
+  } else {
+    reader.fail(kKey, "expected STANDARD or FUSA, got " + shown(*json));
+  }
+}
+
+/// The turning rate of the mode; 0 without one.
+double rate_of_mode(const Reader& reader) {
+  const Json* mode = reader.find({"config_params"}, "lidar_mode");
+  if (mode == nullptr || !mode->is_string()) return 0;
+  const std::string text = mode->get<std::string>();
+  const auto x = text.find('x');
+  int rate = 0;
+  if (x != std::string::npos) std::from_chars(text.data() + x + 1, text.data() + text.size(), rate);
+  return rate >= 1 && rate <= 50 ? rate : 0;
+}
+
+/// The angle at which a frame begins: what it does to the columns' angles is not documented.
+void check_frame_offset(Reader& reader) {
+  constexpr const char* kKey = "lidar_frame_azimuth_offset";
+  const Json* json = reader.find({"lidar_data_format", "data_format", "config_params"}, kKey);
+  if (json == nullptr || (json->is_number() && *json == 0)) return;
+  reader.fail(kKey, "only 0 can be read, got " + shown(*json));
+}
+
 void read_window(Reader& reader, OusterMetadata& out) {
   const int last = out.columns_per_frame - 1;
   out.window_first = 0;
@@ -146,6 +137,9 @@ void read_window(Reader& reader, OusterMetadata& out) {
 void read_data_format(Reader& reader, OusterMetadata& out) {
   const auto format = {"lidar_data_format", "data_format"};
   read_profile(reader, out);
+  read_header(reader, out);
+  check_frame_offset(reader);
+  out.turns_per_s = rate_of_mode(reader);
   const Json* columns = reader.find(format, "columns_per_frame");
   out.columns_per_frame = columns != nullptr ? reader.integer(*columns, "columns_per_frame", 1, kMaxColumns)
                                              : columns_of_mode(reader);
@@ -171,6 +165,11 @@ void read_beam_offset(Reader& reader, OusterMetadata& out) {
   if (const Json* json = reader.find({"beam_intrinsics"}, "beam_to_lidar_transform")) {
     const auto m = reader.numbers(*json, "beam_to_lidar_transform", 1000.0);
     if (m.size() != 16) return reader.fail("beam_to_lidar_transform", "expected 16 numbers");
+    const bool shifts = m[0] == 1 && m[5] == 1 && m[10] == 1 && m[1] == 0 && m[2] == 0 && m[4] == 0 &&
+                        m[6] == 0 && m[8] == 0 && m[9] == 0;
+    if (!shifts || m[7] != 0) {
+      return reader.fail("beam_to_lidar_transform", "expected a shift along x and z, and no turn");
+    }
     out.beam_offset_x_mm = m[3];
     out.beam_offset_z_mm = m[11];
     return;
@@ -195,7 +194,10 @@ bool is_rigid(const std::array<double, 16>& m) {
       if (std::abs(dot - (a == b ? 1.0 : 0.0)) > kTolerance) return false;
     }
   }
-  return m[12] == 0 && m[13] == 0 && m[14] == 0 && m[15] == 1;
+  const double mirrors =  // the determinant: -1 if they do
+      m[0] * (m[5] * m[10] - m[6] * m[9]) - m[1] * (m[4] * m[10] - m[6] * m[8]) +
+      m[2] * (m[4] * m[9] - m[5] * m[8]);
+  return mirrors > 0 && m[12] == 0 && m[13] == 0 && m[14] == 0 && m[15] == 1;
 }
 
 void read_lidar_to_sensor(Reader& reader, OusterMetadata& out) {

@@ -18,6 +18,7 @@ struct OusterMetadata {
   std::vector<double> beam_azimuth_deg;
   int columns_per_frame = 0;
   int columns_per_packet = 16;
+  double turns_per_s = 0;  ///< 0: not known.
   int window_first =
       0;  ///< The first and the last measurement id that the sensor sends; the window may wrap.
   int window_last = 0;

@@ -57,6 +57,11 @@ bool PacketSweepSource::decode(const Packet& packet, Sweep& out) {
 
 void PacketSweepSource::count_foreign(const Packet& packet) {
   SourceCounters& counters = state_->counters;
+  if (decoder_->is_side_packet(packet)) {
+    ++counters.foreign_packets;
+    ++counters.side_packets;
+    return;
+  }
   if (++counters.foreign_packets > 1 && counters.foreign_size != packet.size) ++counters.foreign_size_changes;
   counters.foreign_size = packet.size;
   decoder_->name_other(packet, counters.foreign_kind);

@@ -69,7 +69,10 @@ void SensorWatch::judge(const Look& before, const Look& now) {
 }
 
 void SensorWatch::judge_foreign(const Look& before, const Look& now, double per_s) {
-  const std::uint64_t foreign = now.counters.foreign_packets - before.counters.foreign_packets;
+  const auto strange = [](const SourceCounters& counters) {
+    return counters.foreign_packets - counters.side_packets;
+  };
+  const std::uint64_t foreign = strange(now.counters) - strange(before.counters);
   const double rate = static_cast<double>(foreign) * per_s;
   if (rate <= kStrayPerSecond) return;
   const std::uint64_t changes = now.counters.foreign_size_changes - before.counters.foreign_size_changes;

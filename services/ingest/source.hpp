@@ -41,6 +41,7 @@ struct SourceCounters {
   std::uint64_t missing_columns = 0;       ///< ... and those that did not.
   std::uint64_t foreign_size_changes = 0;  ///< Foreign packets of another size than the foreign one before.
   std::uint64_t foreign_size = 0;          ///< Of the newest foreign packet, bytes.
+  std::uint64_t side_packets = 0;          ///< Of the foreign ones, the sensor's own: IMU, position, zones.
   std::array<std::uint8_t, 4> second_ipv4{};  ///< Who sent the newest packet of a second sensor.
   KindText foreign_kind{};                    ///< Whose the newest foreign packet is, if its bytes prove it.
   KindText second_kind{};                     ///< Whose the newest packet of a second sensor is, likewise.

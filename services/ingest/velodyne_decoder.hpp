@@ -23,6 +23,7 @@ class VelodyneDecoder final : public Decoder {
 
   [[nodiscard]] bool recognises(const Packet& packet) const override;
   [[nodiscard]] std::string expects() const override;
+  [[nodiscard]] bool is_side_packet(const Packet& packet) const override { return packet.size == 512; }
   void name_other(const Packet& packet, KindText& out) const override;
   [[nodiscard]] std::string override_advice(const Packet& packet) const override;
   [[nodiscard]] std::uint64_t sensor_id(const Packet& packet) const override;

@@ -13,8 +13,15 @@ namespace {
 
 using Bytes = std::initializer_list<std::uint8_t>;
 
-constexpr const char* kProfiles[] = {"LEGACY", "RNG15_RFL8_NIR8", "RNG19_RFL8_SIG16_NIR16",
-                                     "RNG19_RFL8_SIG16_NIR16_DUAL"};
+// As fuzz_ouster numbers them.
+constexpr const char* kProfiles[] = {"LEGACY",
+                                     "RNG15_RFL8_NIR8",
+                                     "RNG19_RFL8_SIG16_NIR16",
+                                     "RNG19_RFL8_SIG16_NIR16_DUAL",
+                                     "FUSA_RNG15_RFL8_NIR8_DUAL",
+                                     "RNG15_RFL8_NIR8_ZONE16",
+                                     "RNG19_RFL8_SIG16_NIR16_RGB16",
+                                     "RNG19_RFL8_SIG16_NIR16_RGB16_DUAL"};
 
 ByteVector file_bytes(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
@@ -23,11 +30,11 @@ ByteVector file_bytes(const std::string& path) {
 
 /// Two frames of each profile; live, with a hint of the time in front.
 void add_ouster(Seeds& seeds) {
-  for (std::uint8_t profile = 0; profile < 4; ++profile) {
+  for (std::uint8_t profile = 0; profile < 8; ++profile) {
     for (const std::uint8_t how : Bytes{0, 4, 8, 16}) {
       OusterSensor sensor;
       sensor.profile = kProfiles[profile];
-      ByteVector input{static_cast<std::uint8_t>(profile | how)};
+      ByteVector input{static_cast<std::uint8_t>((profile & 3) | (profile & 4) << 3 | how)};
       if (how == 4) input.resize(9);
       for (int packet = 0; packet < 8; ++packet) {
         input.push_back(4);
@@ -48,10 +55,12 @@ void add_ouster(Seeds& seeds) {
 
 /// A packet of twelve blocks from `azimuth` on, 40 hundredths of a degree each; a return at each fourth
 /// laser.
-ByteVector velodyne_packet(int azimuth, std::uint32_t time_us, std::uint8_t mode) {
+ByteVector velodyne_packet(int azimuth, std::uint32_t time_us, std::uint8_t mode, std::uint8_t model) {
   ByteVector out;
+  const int banks = model == 0xA1 ? 4 : 1;
   for (int block = 0; block < 12; ++block) {
-    append(out, {0xFF, 0xEE});
+    const int bank = (mode == 0x39 ? block / 2 : block) % banks;
+    append(out, {0xFF, static_cast<std::uint8_t>(0xEE - 0x11 * bank)});
     put_le(out, static_cast<std::uint16_t>((azimuth + 40 * (mode == 0x39 ? block / 2 : block)) % 36000));
     for (int laser = 0; laser < 32; ++laser) {
       put_le(out, static_cast<std::uint16_t>(laser % 4 == 0 ? 1000 + block : 0));
@@ -59,19 +68,20 @@ ByteVector velodyne_packet(int azimuth, std::uint32_t time_us, std::uint8_t mode
     }
   }
   put_le(out, time_us);
-  append(out, {mode, 0x22});
+  append(out, {mode, model});
   return out;
 }
 
 void add_velodyne(Seeds& seeds) {
-  for (const std::uint8_t how : Bytes{0, 1, 2, 8, 12, 16}) {
+  for (const std::uint8_t how : Bytes{0, 1, 2, 3, 8, 12, 16, 32}) {
+    const std::uint8_t model = how == 1 ? 0x28 : how == 2 ? 0x21 : how == 3 ? 0xA1 : how == 32 ? 0x24 : 0x22;
     for (const std::uint8_t mode : Bytes{0x37, 0x39}) {
       ByteVector input{how};
       if (how == 12) input.resize(9);
       for (int packet = 0; packet < 3; ++packet) {
         input.push_back(4);
         append(input, velodyne_packet((35100 + packet * 480) % 36000,
-                                      static_cast<std::uint32_t>(packet) * 1327, mode));
+                                      static_cast<std::uint32_t>(packet) * 1327, mode, model));
       }
       seeds.add("velodyne", input);
     }

@@ -78,8 +78,11 @@ TEST_CASE("a live source is idle, then gives the sweep, with the moment at which
   CHECK(sweep.returns.size() == 32);
   CHECK(sweep.received_ns >= before_ns);
   CHECK(sweep.received_ns <= ingest::monotonic_ns());
-  CHECK(source->counters().packets == 5);
-  CHECK(source->counters().foreign_packets == 1);
+  sensor.send(port, ByteVector(48));  // of the IMU
+  CHECK(source->next(sweep, std::chrono::milliseconds(20)).value() == SourceEvent::kIdle);
+  CHECK(source->counters().packets == 6);
+  CHECK(source->counters().foreign_packets == 2);
+  CHECK(source->counters().side_packets == 1);
 }
 
 TEST_CASE("a sweep's age counts what its packets waited in the socket's queue") {

@@ -92,6 +92,40 @@ TEST_CASE("dual returns: both count, the second only if it is there and another 
   CHECK(returns_of(sensor, {0, {5000, 4000}, {5000, 0}}).size() == 2);
 }
 
+TEST_CASE("every profile: ranges in its own unit, the second return where it has one, nothing of the rest") {
+  struct Known {
+    const char* profile;
+    std::uint32_t range;
+    double metres;
+    bool dual;
+  };
+  const Known all[] = {{"LEGACY", 0xFFFFF, 0xFFFFF * 0.001, false},
+                       {"RNG15_RFL8_NIR8", 0x7FFF, 0x7FFF * 0.008, false},
+                       {"RNG15_RFL8_WIN8", 0x7FFF, 0x7FFF * 0.008, false},
+                       {"RNG15_RFL8_NIR8_DUAL", 0x7FFF, 0x7FFF * 0.008, true},
+                       {"FUSA_RNG15_RFL8_NIR8_DUAL", 0x7FFF, 0x7FFF * 0.008, true},
+                       {"RNG15_RFL8_NIR8_ZONE16", 0x7FFF, 0x7FFF * 0.008, false},
+                       {"RNG19_RFL8_SIG16_NIR16", 0x7FFFF, 0x7FFFF * 0.001, false},
+                       {"RNG19_RFL8_SIG16_NIR16_ZONE16", 0x7FFFF, 0x7FFFF * 0.001, false},
+                       {"RNG19_RFL8_SIG16_NIR16_DUAL", 0x7FFFF, 0x7FFFF * 0.001, true},
+                       {"RNG19_RFL8_SIG16_ZONE16_DUAL", 0x7FFFF, 0x7FFFF * 0.001, true},
+                       {"RNG19_RFL8_SIG16_NIR16_RGB16", 0x7FFFF, 0x7FFFF * 0.001, false},
+                       {"RNG19_RFL8_SIG16_NIR16_RGB16_DUAL", 0x7FFFF, 0x7FFFF * 0.001, true}};
+  for (const Known& known : all) {
+    INFO(known.profile);
+    OusterSensor sensor;
+    sensor.profile = known.profile;
+    sensor.serial = 122246000293;
+    const auto level = returns_of(sensor, {0, {known.range, 0}, {1000, 0}});
+    REQUIRE(level.size() == (known.dual ? 2 : 1));
+    check_point(level[0], known.metres, 0, 0);
+    if (known.dual) check_point(level[1], 1000 * known.metres / known.range, 0, 0);
+    const auto tilted = returns_of(sensor, {0, {0, 1000}, {0, 1000}});  // the beam 30 degrees up
+    REQUIRE(tilted.size() == 1);
+    CHECK(tilted[0].z_m == Approx(500 * known.metres / known.range));
+  }
+}
+
 TEST_CASE("the tables agree with the formula for every pixel of a real sensor") {
   const auto data = recordings();
   if (!data) return;

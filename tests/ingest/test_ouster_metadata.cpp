@@ -103,8 +103,79 @@ TEST_CASE("what cannot be right is refused, naming file and key") {
 
 TEST_CASE("a profile that is not supported is refused by name") {
   OusterSensor sensor;
-  sensor.profile = "FUSA_RNG15_RFL8_NIR8_DUAL";
-  check_error(sensor.json(), "profile FUSA_RNG15_RFL8_NIR8_DUAL is not supported (LEGACY, RNG15_RFL8_NIR8");
+  for (const char* profile : {"FIVE_WORD_PIXEL", "OFF", "RNG99"}) {
+    sensor.profile = profile;
+    check_error(sensor.json(), "profile " + sensor.profile + " is not supported (LEGACY, RNG15_RFL8_NIR8");
+  }
+}
+
+TEST_CASE("beam angles that no sensor has are refused") {
+  OusterSensor sensor;
+  sensor.beams = 4;
+  sensor.azimuths = "[3, 1, -1, -3]";
+  sensor.altitudes = "[0, 0, 0, 0]";
+  check_error(sensor.json(), "beam_altitude_angles: all 4 angles are 0: not those of a sensor");
+  sensor.altitudes = "[12.5, 12.5, 12.5, 12.5]";
+  check_error(sensor.json(), "beam_altitude_angles: all 4 angles are 12.5");
+  sensor.altitudes = "[15, 5, 85, -15]";
+  check_error(sensor.json(),
+              "beam_altitude_angles: the angles go from 5 to 85 where they should go on to -15");
+  sensor.altitudes = "[-15, -5, -9, 15]";
+  check_error(sensor.json(), "the angles go from -5 to -9 where they should go on to 15");
+  sensor.altitudes = "[15, 5, 5.3, -15]";
+  CHECK(read(sensor.json()).metadata.has_value());
+  sensor.altitudes = "[15, 5, 1e999, -15]";
+  CHECK_FALSE(read(sensor.json()).metadata.has_value());
+}
+
+TEST_CASE("transforms that no sensor has are refused") {
+  OusterSensor sensor;
+  sensor.transform = "[1,0,0,0, 0,1,0,0, 0,0,-1,0, 0,0,0,1]";  // a mirror
+  check_error(sensor.json(), "lidar_to_sensor_transform: not a rigid transform");
+  sensor.transform = "[0,0,0,0, 0,0,0,0, 0,0,0,0, 0,0,0,0]";
+  check_error(sensor.json(), "lidar_to_sensor_transform: not a rigid transform");
+  const auto beam = [](const std::string& matrix) {
+    return R"({"beam_altitude_angles": [1], "beam_azimuth_angles": [3], "lidar_mode": "512x20", )"
+           R"("beam_to_lidar_transform": )" +
+           matrix + "}";
+  };
+  check_error(beam("[0,0,0,0, 0,0,0,0, 0,0,0,0, 0,0,0,0]"), "beam_to_lidar_transform: expected a shift");
+  check_error(beam("[1,0,0,9, 0,1,0,3, 0,0,1,0, 0,0,0,1]"), "beam_to_lidar_transform: expected a shift");
+  CHECK(read(beam("[1,0,0,9, 0,1,0,0, 0,0,1,2, 0,0,0,1]")).metadata.has_value());
+}
+
+TEST_CASE("firmware 3.2: the header's kind is a key; a frame that begins elsewhere is refused") {
+  const auto json = [](const std::string& more) {
+    return R"({"beam_intrinsics": {"beam_altitude_angles": [1, -1], "beam_azimuth_angles": [3, -3]},
+               "lidar_data_format": {"columns_per_frame": 16, "columns_per_packet": 4, "pixels_per_column": 2,
+               "udp_profile_lidar": "RNG15_RFL8_NIR8_DUAL", )" +
+           more + "}}";
+  };
+  CHECK(read(json(R"("header_type": "STANDARD")")).metadata->layout.header == ingest::OusterHeader::standard);
+  CHECK(read(json(R"("header_type": "FUSA")")).metadata->layout.header == ingest::OusterHeader::fusa);
+  check_error(json(R"("header_type": "SHORT")"), "header_type: expected STANDARD or FUSA, got \"SHORT\"");
+  CHECK(read(json(R"("lidar_frame_azimuth_offset": 0)")).metadata.has_value());
+  check_error(json(R"("lidar_frame_azimuth_offset": 90000)"),
+              "lidar_frame_azimuth_offset: only 0 can be read");
+}
+
+TEST_CASE("real metadata: garbled angles are refused, those of firmware 3.1 and 3.2 are read") {
+  const auto data = recordings();
+  if (!data) return;
+  std::vector<std::string> warnings;
+  const auto garbled = ingest::read_ouster_metadata(
+      *data + "/field/ouster_metadata_garbled/complete_but_all_zeros_legacy.json", warnings);
+  REQUIRE_FALSE(garbled.has_value());
+  CHECK(garbled.error().find("beam_altitude_angles: all 128 angles are 0") != std::string::npos);
+  for (const char* name : {"785", "imu_zm_no_lidar_0"}) {
+    const auto zones =
+        ingest::read_ouster_metadata(*data + "/field/ouster_zone16/" + name + ".json", warnings);
+    INFO((zones ? "" : zones.error()));
+    REQUIRE(zones.has_value());
+    CHECK(zones->packet_size() == 24832);
+    CHECK(zones->serial == 122247000785);
+  }
+  CHECK(warnings.empty());
 }
 
 TEST_CASE("a value that is nested without end is refused, not printed") {

@@ -308,3 +308,39 @@ TEST_CASE("of two sensors behind one address, the one of the metadata is mapped,
   REQUIRE(stream.warnings().size() == 1);
   CHECK(stream.warnings()[0].find("serial number 6, the metadata is of 5") != std::string::npos);
 }
+
+TEST_CASE("a functional-safety header has its own place for frame and serial number") {
+  OusterSensor sensor = with_serial(122246000293);
+  sensor.profile = "FUSA_RNG15_RFL8_NIR8_DUAL";
+  Stream stream(sensor);
+  CHECK(stream.whole_frame(65535).whole_frame(65536).play().size() == 2);  // 32 bits
+  CHECK(stream.counters().second_sensor_packets == 0);
+  OusterSensor other = sensor;
+  other.serial = 5;
+  CHECK(stream.refusal(other).find("serial number 122246000293, the metadata is of 5") != std::string::npos);
+}
+
+TEST_CASE(
+    "packets of another mode than the metadata's are refused: columns of the encoder, of time, beyond the "
+    "frame") {
+  OusterSensor meta;  // 16 columns a turn
+  OusterSensor twice;
+  twice.encoder_step = 90112 / 32;
+  Stream encoder(twice);
+  CHECK(encoder.whole_frame(1).refusal(meta).find("about 32 columns a turn, the metadata has 16") !=
+        std::string::npos);
+
+  OusterSensor timed = with_serial(5);
+  timed.mode = "16x10";
+  timed.column_ns = 100'000'000 / 8;
+  Stream half(timed);
+  CHECK(half.whole_frame(1).refusal(timed).find("about 8 columns a turn, the metadata has 16") !=
+        std::string::npos);
+  timed.column_ns = 100'000'000 / 16;
+  CHECK(Stream(timed).whole_frame(1).play().size() == 1);
+
+  Stream beyond(with_serial(5));
+  beyond.packet(1, 16).packet(1, 20);
+  CHECK(beyond.refusal(with_serial(5)).find("about 20 columns a turn, the metadata has 16") !=
+        std::string::npos);
+}

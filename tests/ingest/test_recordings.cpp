@@ -212,6 +212,31 @@ TEST_CASE("a forest in one PCD: a time for each of its 1024 columns") {
   CHECK(farthest_m(sweeps[0]) == Approx(37.3).margin(0.1));
 }
 
+TEST_CASE("FUSA, dual returns: an eighth of a frame, with the counts that are known of it") {
+  const auto data = recordings();
+  if (!data) return;
+  const std::string folder = "field/ouster_fusa_rng15_dual/";
+  auto source = open(ouster(*data, folder + "OS-1-128_767798045_1024x10_20230712_120049"), {0.0, 262144});
+  const auto sweeps = all_sweeps(*source);
+  REQUIRE(sweeps.size() == 1);
+  CHECK(sweeps[0].times_ns.size() == 128);
+  CHECK(sweeps[0].returns.size() == 16373 + 1089);  // first returns, second ones that are others
+  CHECK(source->counters().foreign_packets == 2);   // IMU
+}
+
+TEST_CASE("two Ousters on one port: each metadata takes its own sensor's packets") {
+  const auto data = recordings();
+  if (!data) return;
+  const std::string folder = *data + "/field/ouster_fusa_rng15_dual/";
+  const std::string fusa = "ouster:" + folder + "same_ports.pcap?meta=" + folder + "same_ports.1.json";
+  auto source = open(fusa, {0.0, 262144});
+  const auto sweeps = all_sweeps(*source);
+  REQUIRE(sweeps.size() == 1);
+  CHECK(sweeps[0].times_ns.size() == 16);
+  CHECK(sweeps[0].returns.size() == 1964);
+  CHECK(source->counters().foreign_packets == 3);  // the other sensor's, and two of IMUs
+}
+
 TEST_CASE("metadata of another sensor is refused, naming both sizes") {
   const auto data = recordings();
   if (!data) return;

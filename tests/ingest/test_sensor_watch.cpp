@@ -172,3 +172,13 @@ TEST_CASE("of a source without packets nothing is ever said") {
   for (std::int64_t now_ns = 0; now_ns < 5'000'000'000; now_ns += kTenth_ns) watch.update({}, 0, now_ns);
   CHECK(watch.faults() == 0);
 }
+
+TEST_CASE("a sensor's own packets beside the lidar's are no fault") {
+  Sensor sensor;
+  sensor.live(20, [](SourceCounters& counters) {
+    counters.packets += 10;
+    counters.foreign_packets += 10;  // of an IMU, to the same port
+    counters.side_packets += 10;
+  });
+  CHECK(sensor.says().empty());
+}
