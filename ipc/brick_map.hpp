@@ -95,6 +95,7 @@ class BrickMapSubscriber {
   [[nodiscard]] bool has_data() const { return port_.has_data(); }
   [[nodiscard]] const InCounters& counters() const { return port_.counters(); }
   std::optional<std::string> new_refusal() { return port_.new_refusal(); }
+  [[nodiscard]] const std::string& newest_refusal() const { return port_.newest_refusal(); }
   InPort& port() { return port_; }
 
  private:

@@ -37,9 +37,11 @@ std::vector<Demand> fixed_demands(const PoolSpec& spec) {
   const std::string keys = "ipc.max_planners";
   return {{"odometry", keys, sizeof(Odometry),
            2 * kPublisherChunks +
-               (lidars + planners + kOtherReaders) * reader_chunks(kOdometryQueue, kHeldFixed)},
+               (lidars + planners + kOtherReaders) * reader_chunks(kOdometryQueue, kHeldFixed) +
+               reader_chunks(1, kHeldFixed)},  // fusion wants the newest alone
           {"progress", keys, sizeof(Progress),
-           (lidars + 1) * kPublisherChunks + kOtherReaders * reader_chunks(kProgressQueue, kHeldFixed)},
+           (lidars + 1) * kPublisherChunks +
+               (lidars + 2 + kOtherReaders) * reader_chunks(kProgressQueue, kHeldFixed)},
           {"health", keys, sizeof(Health),
            (lidars + planners + kOtherProcesses) * kPublisherChunks +
                (planners + kOtherReaders) * reader_chunks(kHealthQueue, kHeldFixed)}};

@@ -163,12 +163,6 @@ Complaint check_brick_map(const std::byte* message, std::size_t bytes) {
                   wrong_size(bytes, brick_map_bytes(map.brick_slots, map.brick_count, map.record_count)));
 }
 
-bool is_lidar_name(std::string_view name) {
-  return !name.empty() && name.size() < kNameLength && std::all_of(name.begin(), name.end(), [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
-  });
-}
-
 }  // namespace
 
 const char* release() {
@@ -218,6 +212,12 @@ Topic layers_topic() {
 
 Topic voxel_map_topic() {
   return {"voxel_map", kAll, MessageType::voxel_map, BrickMap::kVersion, check_brick_map, kVoxelMapQueue};
+}
+
+bool is_lidar_name(std::string_view name) {
+  return !name.empty() && name.size() < kNameLength && std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+  });
 }
 
 Expected<Topic> buffer_map_topic(const std::string& lidar) {

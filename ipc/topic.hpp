@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "ipc/error.hpp"
 #include "ipc/messages.hpp"
@@ -58,6 +59,9 @@ template <>
 Topic topic_of<Health>();
 Topic layers_topic();
 Topic voxel_map_topic();
+
+/// 1 .. 31 of [a-z0-9_].
+bool is_lidar_name(std::string_view name);
 
 /// bad_name if `lidar` is not 1 .. 31 of [a-z0-9_].
 Expected<Topic> buffer_map_topic(const std::string& lidar);

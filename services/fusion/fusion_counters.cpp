@@ -10,62 +10,59 @@ void record_ms(double duration_ms, services::StageHistogram& stage) {
 
 }  // namespace
 
-FusionCounters::FusionCounters(services::HealthReport& health)
-    : maps_in(health.counter("maps_in")),
-      maps_fused(health.counter("maps_fused")),
-      maps_lost(health.counter("maps_lost")),
-      drop_map_too_old(health.counter("drop_map_too_old")),
-      drop_map_duplicate(health.counter("drop_map_duplicate")),
-      drop_map_wrong_grid(health.counter("drop_map_wrong_grid")),
-      drop_map_old_epoch(health.counter("drop_map_old_epoch")),
-      drop_map_before_jump(health.counter("drop_map_before_jump")),
-      drop_map_refused(health.counter("drop_map_refused")),
-      drop_map_bad_directory(health.counter("drop_map_bad_directory")),
-      drop_map_bad_lookup(health.counter("drop_map_bad_lookup")),
-      drop_map_bad_columns(health.counter("drop_map_bad_columns")),
-      drop_map_bad_records(health.counter("drop_map_bad_records")),
-      drop_map_backend_failed(health.counter("drop_map_backend_failed")),
-      layers_out(health.counter("layers_out")),
-      drop_layers_no_chunk(health.counter("drop_layers_no_chunk")),
-      voxel_maps_out(health.counter("voxel_maps_out")),
-      drop_voxels_no_chunk(health.counter("drop_voxels_no_chunk")),
-      epochs(health.counter("epochs")),
-      odometry_jumps(health.counter("odometry_jumps")),
-      fuse(health.stage("fuse")),
-      make_layers(health.stage("make_layers")),
-      received_to_layers(health.stage("received_to_layers")) {}
-
-void FusionCounters::count_drop(AddResult result) {
+void FusionCounts::count_drop(AddResult result) {
   switch (result) {
     case AddResult::too_old:
-      ++drop_map_too_old;
+      ++too_old_maps;
       break;
     case AddResult::duplicate:
-      ++drop_map_duplicate;
+      ++duplicate_maps;
       break;
     case AddResult::wrong_grid:
-      ++drop_map_wrong_grid;
+      ++maps_of_wrong_grid;
       break;
     case AddResult::added:
       break;
   }
 }
 
-void FusionCounters::count_drop(ipc::MapFault::Part part) {
+void FusionCounts::count_drop(ipc::MapFault::Part part) {
   switch (part) {
     case ipc::MapFault::Part::directory:
-      ++drop_map_bad_directory;
+      ++bad_directories;
       break;
     case ipc::MapFault::Part::lookup:
-      ++drop_map_bad_lookup;
+      ++bad_lookups;
       break;
     case ipc::MapFault::Part::columns:
-      ++drop_map_bad_columns;
+      ++bad_columns;
       break;
     case ipc::MapFault::Part::records:
-      ++drop_map_bad_records;
+      ++bad_records;
       break;
   }
+}
+
+void FusionCounts::count_drop(MapLie::About about) {
+  switch (about) {
+    case MapLie::About::epoch:
+      ++bad_epochs;
+      break;
+    case MapLie::About::time:
+      ++bad_times;
+      break;
+  }
+}
+
+FusionCounters::FusionCounters(services::HealthReport& health)
+    : fuse(health.stage("fuse")),
+      make_layers(health.stage("make_layers")),
+      received_to_layers(health.stage("received_to_layers")) {
+  for (std::size_t i = 0; i < reported_.size(); ++i) reported_[i] = &health.counter(kFusionCounters[i].name);
+}
+
+void FusionCounters::report() {
+  for (std::size_t i = 0; i < reported_.size(); ++i) *reported_[i] = this->*kFusionCounters[i].value;
 }
 
 DeviceStages::DeviceStages(services::HealthReport& health)

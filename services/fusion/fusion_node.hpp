@@ -18,7 +18,10 @@
 #include "services/common/log.hpp"
 #include "services/common/vehicle_config.hpp"
 #include "services/fusion/fusion_counters.hpp"
+#include "services/fusion/lateness.hpp"
 #include "services/fusion/map_inbox.hpp"
+#include "services/fusion/map_trust.hpp"
+#include "services/fusion/unknown_lidars.hpp"
 
 namespace gvom::fusion {
 
@@ -26,6 +29,8 @@ namespace gvom::fusion {
 struct Bus {
   ipc::Waiter waiter;
   MapInbox inbox;
+  ipc::InPort odometry;                   // the newest alone: what maps can be believed by
+  ipc::Subscriber<ipc::Progress> others;  // who else runs
   ipc::LayersPublisher layers;
   ipc::BrickMapPublisher voxels;
   ipc::Publisher<ipc::Progress> progress;
@@ -46,22 +51,32 @@ class FusionNode {
   services::ExitCode run();
 
  private:
+  /// Fuses what is there, then makes layers, once: a backlog of maps is caught up with, not shown map by map.
   void fuse_arrived();
+  void hear_others();
   void fuse(const ArrivedMap& map);
+  bool place_in_time(const ipc::BrickMap& header);
   void begin_epoch(std::uint64_t epoch);
   void begin_after_jump(std::int64_t stamp_ns);
   void empty_window();
-  void refuse(const ArrivedMap& map, const ipc::MapFault& fault);
+  /// For the arrays of a map, or its header: nothing of it is believed.
+  template <typename Part>
+  void refuse(const ArrivedMap& map, Part part, const std::string& why);
   void refuse(const ArrivedMap& map, AddResult result);
+  /// In the log now, and in Health for two seconds.
+  void complain(std::string why);
   /// Nothing of this process's map can be trusted any more: it leaves, to be started again.
   void fail(const DeviceError& error);
-  [[nodiscard]] bool tick_due(std::int64_t now_ns) const;
+  [[nodiscard]] bool layers_due() const;
   void publish_layers();
+  /// Of the map in the window whose packets came last.
+  [[nodiscard]] const ipc::BrickMap& last_received() const;
   void record_costs();
   void fill_lidars(ipc::Layers& header) const;
   void publish_voxels();
   void publish_progress();
   void publish_health();
+  void judge();
   void send_health(std::int64_t now_ns);
 
   const services::VehicleConfig& config_;
@@ -74,7 +89,10 @@ class FusionNode {
   services::LogEvery log_drops_{std::chrono::seconds(10)};
 
   MapFuser fuser_;
-  ipc::BrickMap newest_{};  // header of the newest map in the window, for its stage times
+  MapTrust trust_;
+  UnknownLidars unknown_;
+  Lateness lateness_;
+  std::int64_t newest_stamp_ns_ = 0;  // of the window
   std::uint64_t epoch_ = 0;
   std::int64_t jump_ns_ = 0;  // of this epoch: no map from before the odometry's last jump is of use
   std::int64_t fused_ns_ = 0;
@@ -85,8 +103,8 @@ class FusionNode {
   std::int64_t next_progress_ns_ = 0;
   std::int64_t last_layers_ns_ = 0;
   bool progress_news_ = true;
-  std::string bad_map_;                 // whose map led nowhere, and how
-  std::int64_t bad_map_ns_ = 0;         // when the last such came, 0: none yet
+  std::string complaint_;               // whose map was refused, and why
+  std::int64_t complaint_ns_ = 0;       // when the last such came, 0: none yet
   std::optional<std::string> failure_;  // of the back end, for good
 };
 

@@ -32,21 +32,41 @@ std::optional<ArrivedMap> MapInbox::take() {
     const std::size_t token = free_slot();
     held_[token] = std::move(*sample);
     lidar.taken_sequence = held_[token]->header().header.sequence;
-    lidar.newest_stamp_ns = held_[token]->header().header.stamp_ns;
-    lidar.columns_seen_fraction = held_[token]->header().columns_seen_fraction;
     return ArrivedMap{static_cast<int>(index), token, &*held_[token]};
   }
   return std::nullopt;
+}
+
+void MapInbox::note_fused(const ArrivedMap& map) {
+  Lidar& lidar = lidars_[static_cast<std::size_t>(map.lidar)];
+  lidar.newest_stamp_ns = map.sample->header().header.stamp_ns;
+  lidar.columns_seen_fraction = map.sample->header().columns_seen_fraction;
 }
 
 void MapInbox::release(std::uint64_t token) {
   held_[token].reset();
 }
 
+std::uint64_t MapInbox::refused() const {
+  std::uint64_t sum = 0;
+  for (const Lidar& lidar : lidars_) sum += lidar.maps.counters().refused();
+  return sum;
+}
+
+std::uint64_t MapInbox::lost() const {
+  std::uint64_t sum = 0;
+  for (const Lidar& lidar : lidars_) sum += lidar.maps.counters().lost;
+  return sum;
+}
+
 std::optional<std::string> MapInbox::new_refusal() {
-  for (Lidar& lidar : lidars_)
-    if (auto refusal = lidar.maps.new_refusal()) return "lidar " + lidar.name + ": " + *refusal;
-  return std::nullopt;
+  std::optional<std::string> why;
+  for (Lidar& lidar : lidars_) {
+    const std::uint64_t refused = lidar.maps.counters().refused();
+    if (refused > lidar.told_refusals) why = lidar.maps.newest_refusal();
+    lidar.told_refusals = refused;
+  }
+  return why;
 }
 
 }  // namespace gvom::fusion

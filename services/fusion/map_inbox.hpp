@@ -32,18 +32,26 @@ class MapInbox {
   /// until its token leaves the window.
   std::optional<ArrivedMap> take();
   void release(std::uint64_t token);
+  /// The map was fused: it is the newest of its lidar, for Layers.
+  void note_fused(const ArrivedMap& map);
+  /// Of a map that is held.
+  [[nodiscard]] const ipc::BrickMap& header(std::uint64_t token) const { return held_[token]->header(); }
 
-  /// How far each lidar's maps were taken, for Progress and Layers.
+  /// How far each lidar's maps were taken and fused, for Progress and Layers.
   struct Lidar {
     std::string name;
     ipc::BrickMapSubscriber maps;
     std::uint64_t taken_sequence = 0;
     std::int64_t newest_stamp_ns = 0;
     float columns_seen_fraction = 0;  // of the newest sweep
+    std::uint64_t told_refusals = 0;
   };
   [[nodiscard]] const std::vector<Lidar>& lidars() const { return lidars_; }
-  /// Why a message was refused, each reason once.
+  /// Why the newest of the messages that were refused since the last call was.
   std::optional<std::string> new_refusal();
+  /// How many messages of all lidars were refused, and lost in gaps.
+  [[nodiscard]] std::uint64_t refused() const;
+  [[nodiscard]] std::uint64_t lost() const;
 
  private:
   explicit MapInbox(std::size_t slots) : held_(slots) {}
