@@ -29,6 +29,7 @@ struct FusionCounts {
   std::uint64_t bad_epochs = 0;
   std::uint64_t bad_times = 0;
   std::uint64_t backend_failures = 0;
+  std::uint64_t maps_sharing_layers = 0;
   std::uint64_t layers_out = 0;
   std::uint64_t layers_without_chunk = 0;
   std::uint64_t voxel_maps_out = 0;
@@ -67,6 +68,7 @@ inline constexpr CounterRow kFusionCounters[] = {
     {"drop_map_bad_epoch", &FusionCounts::bad_epochs},  // announced by no odometry
     {"drop_map_bad_time", &FusionCounts::bad_times},    // received, measured or jumped in the future
     {"drop_map_backend_failed", &FusionCounts::backend_failures},  // the last one then: the process leaves
+    {"maps_sharing_layers", &FusionCounts::maps_sharing_layers},   // fused, and first seen with later ones
     {"layers_out", &FusionCounts::layers_out},
     {"drop_layers_no_chunk", &FusionCounts::layers_without_chunk},
     {"voxel_maps_out", &FusionCounts::voxel_maps_out},

@@ -139,6 +139,7 @@ void FusionNode::fuse(const ArrivedMap& map) {
   fused_ns_ = ipc::monotonic_ns();
   counters_.fuse.record_ns(fused_ns_ - fuse_ns);
   ++counters_.maps_fused;
+  if (fresh_) ++counters_.maps_sharing_layers;
   fresh_ = true;
   trust_.believe(header);
   bus_.inbox.note_fused(map);
@@ -178,6 +179,7 @@ void FusionNode::begin_after_jump(std::int64_t stamp_ns) {
 
 void FusionNode::empty_window() {
   fuser_.reset();
+  if (fresh_) ++counters_.maps_sharing_layers;
   fresh_ = false;
   voxels_fresh_ = false;
   for (const WindowMap& left : fuser_.window().left()) bus_.inbox.release(left.token);

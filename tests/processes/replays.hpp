@@ -11,7 +11,8 @@ namespace gvom::test {
 /// gvom-map's; every sweep must have been mapped and fused.
 void check_replay(const Vehicle& vehicle, const std::string& rate, const std::string& expected_maps);
 
-/// That every sweep of the ended graph was mapped and fused, so many in all.
-void check_all_mapped(Graph& graph, int expected_maps);
+/// That every sweep of the ended graph was mapped and fused, so many in all; `lossless`: each with layers of
+/// its own, else maps that come together share them.
+void check_all_mapped(Graph& graph, int expected_maps, bool lossless);
 
 }  // namespace gvom::test

@@ -1,5 +1,5 @@
-// Maps that are readable but lead nowhere: fusion believes nothing of them, counts them by what is wrong,
-// says whose they are, and maps the good lidar as if it were alone.
+// Maps that are readable but lead nowhere, or lie about their time: fusion believes nothing of them, counts
+// them by what is wrong, says whose they are, and maps the good lidar as if it were alone.
 #include <sys/mman.h>
 
 #include <catch2/catch.hpp>
@@ -30,7 +30,30 @@ namespace {
 constexpr int kSweeps = 20;
 constexpr char kFusion[] = "gvom-fusion";
 constexpr const char* kCounters[] = {"drop_map_bad_directory", "drop_map_bad_lookup", "drop_map_bad_columns",
-                                     "drop_map_bad_records"};
+                                     "drop_map_bad_records",   "drop_map_bad_epoch",  "drop_map_bad_time"};
+constexpr std::int64_t kFar_ns = 3'000'000'000'000'000'000;  // the year 2065
+constexpr std::uint64_t kLastEpoch = ~std::uint64_t{0};
+
+/// What a lie changes of a map that is else as good as the original.
+struct Claim {
+  std::uint64_t epoch;
+  std::int64_t stamp_ns;
+  std::int64_t jump_ns;
+};
+
+/// Each would make all maps of the good lidar too old for good.
+Claim lie_of(int number, const gvom::ipc::MessageHeader& header) {
+  switch (number) {
+    case 0:
+      return {kLastEpoch, header.stamp_ns, 0};
+    case 1:
+      return {kLastEpoch, kFar_ns, kFar_ns};
+    case 2:
+      return {header.epoch, header.stamp_ns, kFar_ns};
+    default:
+      return {header.epoch, kFar_ns, kFar_ns};
+  }
+}
 
 /// Makes the map lead nowhere, in a way that the counter of this index counts.
 void spoil(const BrickMapWriter& map, std::size_t counter) {
@@ -63,7 +86,8 @@ BrickMapWriter copy_of(const BrickMapSample& map, BrickMapPublisher& publisher) 
   return std::move(*copy);
 }
 
-/// Publishes each map of `front` as one of `rear` with something wrong, and half of them of a later epoch.
+/// Publishes each map of `front` as one of `rear` with something wrong: its arrays, half of them of a later
+/// epoch, or what it says of its time.
 [[noreturn]] void live_as_liar(const Vehicle& vehicle, Step& lies) {
   const auto config = gvom::services::load_vehicle_config(vehicle.file, vehicle.sets).value();
   auto runtime = gvom::ipc::Runtime::connect("gvom-ingest-rear", gvom::ipc::test::kPatience).value();
@@ -80,9 +104,15 @@ BrickMapWriter copy_of(const BrickMapSample& map, BrickMapPublisher& publisher) 
       map = maps.take();
     }
     BrickMapWriter copy = copy_of(*map, liar);
-    spoil(copy, static_cast<std::size_t>(sent) % std::size(kCounters));
     const auto& header = map->header().header;
-    liar.publish(std::move(copy), header.stamp_ns, header.epoch + (sent / 4 % 2 == 0 ? 0 : 7));
+    const int kind = sent % 8;
+    Claim claim{header.epoch + (sent / 8 % 2 == 0 ? 0 : 7), header.stamp_ns, 0};
+    if (kind < 4)
+      spoil(copy, static_cast<std::size_t>(kind));
+    else
+      claim = lie_of(kind - 4, header);
+    copy.header().odometry_jump_ns = claim.jump_ns;
+    liar.publish(std::move(copy), claim.stamp_ns, claim.epoch);
   }
 }
 
@@ -145,6 +175,7 @@ void check_bad_maps(const std::vector<std::string>& sets, const std::string& var
   CHECK(graph.fusion().runs());
   CHECK(observer.counter(kFusion, "epochs") == 0);
   CHECK(observer.newest_layers().lidars[1].missing == 1);
+  CHECK(observer.newest_layers().lidars[1].newest_stamp_ns == 0);  // nothing of them is believed
   CHECK(snapshot->stop() == 0);
   CHECK(differences(expected, last_map(out)) == "");
   liar.kill();
@@ -153,7 +184,9 @@ void check_bad_maps(const std::vector<std::string>& sets, const std::string& var
 
 }  // namespace
 
-TEST_CASE("maps that lead nowhere are refused, and the good lidar's are mapped as if alone") {
+TEST_CASE(
+    "maps that lead nowhere or lie about their time are refused, and the good lidar's are mapped as if "
+    "alone") {
   check_bad_maps({"fusion.backend=cpu"}, "");
 }
 
