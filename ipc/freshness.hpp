@@ -10,8 +10,8 @@
 namespace gvom::ipc {
 
 /// The oldest layers that a planner is given if it asks for nothing else. A 10 Hz lidar's newest packets are
-/// 0.15 s old at most when all is well, and 0.35 s after two lost sweeps. At 12 m/s a vehicle drives 6 m blind
-/// in half a second.
+/// 0.15 s old at most when all is well, and 0.35 s after two lost sweeps. At 12 m/s a vehicle drives 6 m
+/// blind in half a second.
 inline constexpr std::chrono::milliseconds kDefaultMaxAge{500};
 
 /// An age that cannot be told: older than any other.
