@@ -17,9 +17,11 @@ MapperConfig random_config(Random& random, const ScenarioSize& size) {
   MapperConfig config;
   config.map.size_xy = size.size_xy;
   config.map.size_z = size.size_z;
-  config.map.resolution_xy_m = size.on_faces ? random.pick({0.25, 0.5, 1.0, 0.4, 0.2}) : random.pick({0.4, 0.2, 0.13});
-  config.map.resolution_z_m =
-      random.chance(0.5) ? config.map.resolution_xy_m : (size.on_faces ? random.pick({0.5, 0.4}) : random.pick({0.1, 0.3}));
+  config.map.resolution_xy_m =
+      size.on_faces ? random.pick({0.25, 0.5, 1.0, 0.4, 0.2}) : random.pick({0.4, 0.2, 0.13});
+  config.map.resolution_z_m = random.chance(0.5)
+                                  ? config.map.resolution_xy_m
+                                  : (size.on_faces ? random.pick({0.5, 0.4}) : random.pick({0.1, 0.3}));
   config.window.buffer_size = random.integer(1, 6);
   config.window.max_age_s = random.pick({0.0, 0.25, 0.5, 2.0, 3600.0});
   config.vehicle.radius_m = random.pick({0.0, 1.0, 2.0});

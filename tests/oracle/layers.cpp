@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/plane.hpp"
+#include "tests/oracle/plane.hpp"
 
 namespace gvom::oracle {
 
@@ -91,19 +91,17 @@ float height_at(const Layers& layers, int x, int y) {
   return inside ? layers.height[layers.index(x, y)] : NAN;
 }
 
-// R12. The arithmetic is the shared formulas', which a test of its own holds against another solver.
+// R12.
 void fit_plane(const MapperConfig& config, int x, int y, Layers& out) {
   const int reach = config.layers.plane_size / 2;
-  PlaneSums sums{};
+  std::vector<HeightAt> heights;
   for (int dy = -reach; dy <= reach; ++dy)
-    for (int dx = -reach; dx <= reach; ++dx) add_height(sums, dx, dy, height_at(out, x + dx, y + dy));
-  const PlaneFit fit = solve_plane(sums);
-  double squares_m2 = 0;
-  for (int dy = -reach; dy <= reach; ++dy)
-    for (int dx = -reach; dx <= reach; ++dx)
-      squares_m2 += squared_residual(fit, dx, dy, height_at(out, x + dx, y + dy));
-  const Plane plane =
-      plane_layers(fit, sums.n, squares_m2, config.map.resolution_xy_m, config.layers.slope_threshold_rad);
+    for (int dx = -reach; dx <= reach; ++dx) {
+      const float z_m = height_at(out, x + dx, y + dy);
+      if (!std::isnan(z_m)) heights.push_back({dx, dy, double{z_m}});
+    }
+  const PlaneValues plane =
+      plane_through(heights, config.map.resolution_xy_m, config.layers.slope_threshold_rad);
   const std::size_t i = out.index(x, y);
   out.slope_x[i] = plane.slope_x;
   out.slope_y[i] = plane.slope_y;

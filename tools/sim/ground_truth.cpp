@@ -80,7 +80,8 @@ void mark_person(const Scene& scene, GroundTruth& truth) {
       for (double dx = -person.radius_m; dx <= person.radius_m; dx += kSample) {
         if (dx * dx + dy * dy > person.radius_m * person.radius_m) continue;
         const auto index = [&](double value, int axis) {
-          return static_cast<std::int64_t>(std::floor(voxel_coordinate(value, truth.resolution_m))) - truth.origin[axis];
+          return static_cast<std::int64_t>(std::floor(voxel_coordinate(value, truth.resolution_m))) -
+                 truth.origin[axis];
         };
         const std::int64_t ix = index(person.centre.x() + dx, 0);
         const std::int64_t iy = index(person.centre.y() + dy, 1);
