@@ -61,12 +61,6 @@ Expected<void> check_may_join(const std::string& name, std::chrono::milliseconds
   return check_name_is_free(name);
 }
 
-std::int64_t clock_ns(clockid_t clock) {
-  timespec now{};
-  ::clock_gettime(clock, &now);
-  return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
-}
-
 }  // namespace
 
 struct Runtime::State {
@@ -84,10 +78,6 @@ Expected<void> check_runtime_name(const std::string& name) {
       Error{ErrorKind::bad_name, "process name '" + name +
                                      "': expected 1 to 63 of [A-Za-z0-9_.-], not starting with "
                                      "a dot, not 'roudi'"});
-}
-
-std::int64_t monotonic_ns() {
-  return clock_ns(CLOCK_MONOTONIC);
 }
 
 std::int64_t suspended_ns() {

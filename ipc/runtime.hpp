@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 
+#include "ipc/clock.hpp"
 #include "ipc/error.hpp"
 
 namespace gvom::ipc {
@@ -24,9 +25,6 @@ Expected<void> check_runtime_name(const std::string& name);
 
 /// True if a broker's socket takes messages at this moment. Costs a few microseconds.
 bool broker_answers();
-
-/// CLOCK_MONOTONIC, ns: the clock of all mono_*_ns.
-std::int64_t monotonic_ns();
 
 /// How long the machine was suspended since its start, in whole milliseconds: CLOCK_MONOTONIC stands still
 /// then.

@@ -7,6 +7,8 @@
 
 #include <unistd.h>
 
+#include "ipc/text.hpp"
+
 namespace gvom::services {
 
 namespace {
@@ -29,12 +31,6 @@ double upper_edge(std::size_t bucket) {
   const int octave = static_cast<int>(bucket >> kPartsLog2) - 1;
   const auto part = static_cast<double>(bucket & (kParts - 1));
   return std::ldexp(kParts + part + 1, octave) - 1;
-}
-
-template <std::size_t N>
-void copy_text(char (&out)[N], std::string_view text) {
-  const std::size_t length = std::min(text.size(), N - 1);
-  std::fill(std::copy_n(text.data(), length, out), out + N, '\0');
 }
 
 }  // namespace
@@ -74,8 +70,8 @@ double StageHistogram::percentile_ms(double fraction) const {
 }
 
 HealthReport::HealthReport(std::string_view process, std::uint64_t config_hash) {
-  copy_text(message_.process, process);
-  copy_text(message_.version, GVOM_VERSION);
+  ipc::set_text(message_.process, process);
+  ipc::set_text(message_.version, GVOM_VERSION);
   message_.config_hash = config_hash;
   message_.pid = static_cast<std::uint32_t>(getpid());
 }
@@ -84,25 +80,25 @@ std::uint64_t& HealthReport::counter(std::string_view name) {
   if (message_.counter_count == ipc::Health::kMaxCounters)
     throw std::length_error("too many health counters");
   const std::uint32_t index = message_.counter_count++;
-  copy_text(message_.counters[index].name, name);
+  ipc::set_text(message_.counters[index].name, name);
   return counters_[index];
 }
 
 StageHistogram& HealthReport::stage(std::string_view name) {
   if (message_.stage_count == ipc::Health::kMaxStages) throw std::length_error("too many health stages");
   const std::uint32_t index = message_.stage_count++;
-  copy_text(message_.stages[index].name, name);
+  ipc::set_text(message_.stages[index].name, name);
   return stages_[index];
 }
 
 void HealthReport::set_state(ipc::HealthState state, std::string_view reason) {
   message_.state = static_cast<std::uint32_t>(state);
-  copy_text(message_.reason, reason);
+  ipc::set_text(message_.reason, reason);
 }
 
 void HealthReport::set_backend(std::string_view name, std::string_view details) {
-  copy_text(message_.backend, name);
-  copy_text(message_.backend_details, details);
+  ipc::set_text(message_.backend, name);
+  ipc::set_text(message_.backend_details, details);
 }
 
 const ipc::Health& HealthReport::take(std::int64_t mono_ns) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "services/ingest/monotonic.hpp"
+#include "ipc/clock.hpp"
 
 namespace gvom::ingest {
 namespace {
@@ -24,7 +24,7 @@ tl::expected<SourceEvent, std::string> PacketSweepSource::next(Sweep& out,
                                                                std::chrono::milliseconds timeout) {
   out.clear();
   if (ended_) return end(out);
-  const std::int64_t deadline_ns = monotonic_ns() + std::chrono::nanoseconds(timeout).count();
+  const std::int64_t deadline_ns = ipc::monotonic_ns() + std::chrono::nanoseconds(timeout).count();
   std::chrono::milliseconds wait = timeout;
   for (;;) {
     Packet packet;
@@ -34,7 +34,7 @@ tl::expected<SourceEvent, std::string> PacketSweepSource::next(Sweep& out,
     if (*event == PacketEvent::idle) return SourceEvent::kIdle;
     if (decode(packet, out)) return SourceEvent::kSweep;
     if (!is_live()) continue;
-    const std::int64_t left_ns = deadline_ns - monotonic_ns();
+    const std::int64_t left_ns = deadline_ns - ipc::monotonic_ns();
     if (left_ns < -kMaxOvertimeNs) return SourceEvent::kIdle;
     wait = std::chrono::milliseconds(left_ns > 0 ? left_ns / 1'000'000 : 0);
   }

@@ -10,7 +10,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "services/ingest/monotonic.hpp"
+#include "ipc/clock.hpp"
 
 namespace gvom::ingest {
 namespace {
@@ -44,7 +44,7 @@ Beside read_beside(msghdr& message, std::uint32_t drops_before) {
     if (c->cmsg_type != SO_TIMESTAMPNS) continue;
     timespec time{};
     std::memcpy(&time, CMSG_DATA(c), sizeof time);
-    beside.arrived_ns = to_ns(time);
+    beside.arrived_ns = ipc::to_ns(time);
   }
   return beside;
 }
@@ -58,7 +58,11 @@ SourceError bind_error(const std::string& what) {
 }  // namespace
 
 UdpReceiver::UdpReceiver(int socket, std::uint16_t port, SourceState& state)
-    : socket_(socket), port_(port), state_(state), buffer_(kMaxDatagram), not_before_ns_(monotonic_ns()) {}
+    : socket_(socket),
+      port_(port),
+      state_(state),
+      buffer_(kMaxDatagram),
+      not_before_ns_(ipc::monotonic_ns()) {}
 
 UdpReceiver::~UdpReceiver() {
   ::close(socket_);
@@ -106,7 +110,7 @@ tl::expected<PacketEvent, std::string> UdpReceiver::receive(Packet& out) {
   message.msg_iovlen = 1;
   message.msg_control = control;
   message.msg_controllen = sizeof control;
-  const std::int64_t asked_ns = monotonic_ns();
+  const std::int64_t asked_ns = ipc::monotonic_ns();
   const ssize_t size = ::recvmsg(socket_, &message, MSG_DONTWAIT);
   if (size < 0) {
     const bool nothing = errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR || errno == ECONNREFUSED;
@@ -130,8 +134,8 @@ tl::expected<PacketEvent, std::string> UdpReceiver::receive(Packet& out) {
 /// The wall clock may have been set while the packet waited: it came after the one before it, after the queue
 /// was last empty, and not later than now.
 std::int64_t UdpReceiver::received_at(std::int64_t arrived_ns) {
-  const std::int64_t now_ns = monotonic_ns();
-  const std::int64_t waited_ns = arrived_ns == 0 ? 0 : wall_ns() - arrived_ns;
+  const std::int64_t now_ns = ipc::monotonic_ns();
+  const std::int64_t waited_ns = arrived_ns == 0 ? 0 : ipc::clock_ns(CLOCK_REALTIME) - arrived_ns;
   not_before_ns_ = std::clamp(now_ns - waited_ns, not_before_ns_, now_ns);
   return not_before_ns_;
 }

@@ -1,17 +1,14 @@
 #include "services/odometry/readers.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <string_view>
 #include <utility>
+
+#include "ipc/text.hpp"
 
 namespace gvom::odometry {
 
 namespace {
-
-std::string_view text_of(const char (&name)[ipc::kNameLength]) {
-  return {name, strnlen(name, sizeof(name))};
-}
 
 bool same_progress(const ipc::Progress& a, const ipc::Progress& b) {
   const auto same_taken = [](const ipc::Progress::Taken& x, const ipc::Progress::Taken& y) {
@@ -36,7 +33,7 @@ Readers::Readers(const std::vector<std::string>& lidars, std::uint64_t first_epo
 }
 
 const Reader* Readers::take(const ipc::Progress& progress, std::uint64_t published, std::int64_t mono_ns) {
-  const std::string_view name = text_of(progress.reader);
+  const std::string_view name = ipc::text_of(progress.reader);
   const auto ingest = std::find_if(ingests_.begin(), ingests_.end(),
                                    [&](const Reader& reader) { return reader.name == name; });
   if (ingest == ingests_.end() && name != fusion_.name) return nullptr;
@@ -84,7 +81,7 @@ std::uint64_t Readers::taken_by_fusion(const std::string& lidar) const {
   const std::size_t count = std::min<std::size_t>(fusion_.latest.lidar_count, ipc::kMaxLidars);
   for (std::size_t i = 0; i < count; ++i) {
     const ipc::Progress::Taken& taken = fusion_.latest.taken[i];
-    if (text_of(taken.lidar) == lidar) return taken.sequence;
+    if (ipc::text_of(taken.lidar) == lidar) return taken.sequence;
   }
   return 0;
 }

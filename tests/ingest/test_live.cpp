@@ -3,7 +3,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "services/ingest/monotonic.hpp"
+#include "ipc/clock.hpp"
 #include "services/ingest/udp_receiver.hpp"
 #include "tests/ingest/ouster_builder.hpp"
 #include "tests/ingest/recordings.hpp"
@@ -69,7 +69,7 @@ TEST_CASE("a live source is idle, then gives the sweep, with the moment at which
 
   const Socket sensor;
   for (int column = 0; column < 12; column += 4) sensor.send(port, plain_packet({}, 1, column));
-  const std::int64_t before_ns = ingest::monotonic_ns();
+  const std::int64_t before_ns = ipc::monotonic_ns();
   CHECK(source->next(sweep, std::chrono::milliseconds(20)).value() == SourceEvent::kIdle);
   sensor.send(port, ByteVector(10));
   sensor.send(port, plain_packet({}, 1, 12));
@@ -77,7 +77,7 @@ TEST_CASE("a live source is idle, then gives the sweep, with the moment at which
   CHECK(sweep.complete);
   CHECK(sweep.returns.size() == 32);
   CHECK(sweep.received_ns >= before_ns);
-  CHECK(sweep.received_ns <= ingest::monotonic_ns());
+  CHECK(sweep.received_ns <= ipc::monotonic_ns());
   sensor.send(port, ByteVector(48));  // of the IMU
   CHECK(source->next(sweep, std::chrono::milliseconds(20)).value() == SourceEvent::kIdle);
   CHECK(source->counters().packets == 6);
@@ -96,7 +96,7 @@ TEST_CASE("a sweep's age counts what its packets waited in the socket's queue") 
   for (int frame = 1; frame <= 3; ++frame) {
     CHECK(source->next(sweep, std::chrono::milliseconds(0)).value() == SourceEvent::kIdle);
     for (int column = 0; column < 16; column += 4) sensor.send(port, plain_packet({}, frame, column));
-    const std::int64_t sent_ns = ingest::monotonic_ns();  // on the loopback the kernel has them now
+    const std::int64_t sent_ns = ipc::monotonic_ns();  // on the loopback the kernel has them now
     REQUIRE(source->next(sweep, kWait).value() == SourceEvent::kSweep);
     CHECK(sweep.received_ns <= sent_ns);
     CHECK(sweep.received_ns >= last_ns);
@@ -109,9 +109,9 @@ TEST_CASE("a live packet has the kernel's time, on both clocks") {
   const std::uint16_t port = free_port();
   const auto receiver = ingest::UdpReceiver::open(port, "127.0.0.1", state).value();
   const Socket sensor;
-  const std::int64_t before_ns = ingest::wall_ns();
+  const std::int64_t before_ns = ipc::clock_ns(CLOCK_REALTIME);
   sensor.send(port, {1, 2, 3});
-  const std::int64_t after_ns = ingest::wall_ns();
+  const std::int64_t after_ns = ipc::clock_ns(CLOCK_REALTIME);
   ingest::Packet packet;
   REQUIRE(receiver->next(packet, kWait).value() == ingest::PacketEvent::packet);
   CHECK(packet.capture_ns >= before_ns);
