@@ -1,17 +1,35 @@
 #include "services/common/lifecycle.hpp"
 
+#include <cerrno>
 #include <cstdio>
 
 #include <pthread.h>
+#include <spdlog/spdlog.h>
 #include <systemd/sd-daemon.h>
 #include <unistd.h>
 
 namespace gvom::services {
 
-Lifecycle::Lifecycle() {
+namespace {
+
+/// Outlives this and main's end, where iceoryx still talks to its broker: hence detached, and without the
+/// log, which is gone by then.
+void leave_after(std::chrono::milliseconds time) {
+  std::thread([time] {
+    std::this_thread::sleep_for(time);
+    ::dprintf(STDERR_FILENO, "%s: asked to stop %.1f s ago and still held by something: leaving at once\n",
+              program_invocation_short_name, std::chrono::duration<double>(time).count());
+    ::_exit(0);
+  }).detach();
+}
+
+}  // namespace
+
+Lifecycle::Lifecycle(std::optional<std::chrono::milliseconds> leave_within) : leave_within_(leave_within) {
   sigemptyset(&signals_);
   sigaddset(&signals_, SIGINT);
   sigaddset(&signals_, SIGTERM);
+  if (leave_within_) sigaddset(&signals_, SIGHUP);
   pthread_sigmask(SIG_BLOCK, &signals_, &previous_mask_);
   thread_ = std::thread([this] { take_signals(); });
 }
@@ -28,6 +46,11 @@ void Lifecycle::take_signals() {
     int signal = 0;
     sigwait(&signals_, &signal);
     if (finished_) return;
+    if (signal == SIGHUP) {
+      spdlog::warn(
+          "SIGHUP: the configuration is not read again; gvomctl reload restarts whom a change concerns");
+      continue;
+    }
     if (stopping()) _exit(128 + signal);
     request_stop();
   }
@@ -36,6 +59,7 @@ void Lifecycle::take_signals() {
 void Lifecycle::request_stop() {
   const std::lock_guard lock(mutex_);
   if (stopping_.exchange(true)) return;
+  if (leave_within_) leave_after(*leave_within_);
   stop_asked_.notify_all();
   if (callback_) callback_();
 }
@@ -62,6 +86,12 @@ void notify_stopping() {
 void notify_status(const char* text) {
   char message[256];
   std::snprintf(message, sizeof(message), "STATUS=%s", text);
+  sd_notify(0, message);
+}
+
+void notify_waiting(const char* text) {
+  char message[256];
+  std::snprintf(message, sizeof(message), "STATUS=%s\nEXTEND_TIMEOUT_USEC=30000000", text);
   sd_notify(0, message);
 }
 

@@ -6,11 +6,15 @@
 #include <condition_variable>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 #include <signal.h>
 
 namespace gvom::services {
+
+/// How long a service on the bus may take to leave it. The units allow a second more.
+inline constexpr std::chrono::milliseconds kLeaveWithin{1000};
 
 /// Takes SIGINT and SIGTERM in a thread of its own; no other thread is ever interrupted (more than five
 /// times in one of iceoryx's own waits is fatal to it). Make one first thing in main, before anything starts
@@ -18,7 +22,10 @@ namespace gvom::services {
 /// + signal).
 class Lifecycle {
  public:
-  Lifecycle();
+  /// A tool takes its time to end, and a closed terminal (SIGHUP) ends it at once. A service, which has a
+  /// time here, ends so long after a stop was asked for, with 0, whatever still holds it (a broker that ends
+  /// at the same time, a lock), and says so; SIGHUP makes it say a word and no more.
+  explicit Lifecycle(std::optional<std::chrono::milliseconds> leave_within = std::nullopt);
   ~Lifecycle();
   Lifecycle(const Lifecycle&) = delete;
   Lifecycle& operator=(const Lifecycle&) = delete;
@@ -39,6 +46,7 @@ class Lifecycle {
  private:
   void take_signals();
 
+  const std::optional<std::chrono::milliseconds> leave_within_;  ///< Of a service.
   sigset_t signals_;
   sigset_t previous_mask_;
   std::atomic<bool> stopping_{false};
@@ -53,6 +61,10 @@ class Lifecycle {
 void notify_ready();
 void notify_status(const char* text);  ///< One line for `systemctl status`.
 void notify_stopping();
+
+/// The same, for a start that waits for something else: it has half a minute from now, however long it has
+/// waited.
+void notify_waiting(const char* text);
 
 /// Feeds the watchdog. Call it from the working loop itself, as often as you like: it sends at most every 100
 /// ms.

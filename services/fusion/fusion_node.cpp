@@ -49,7 +49,7 @@ FusionNode::FusionNode(const services::VehicleConfig& config, ipc::Runtime& runt
     : config_(config),
       bus_(bus),
       lifecycle_(lifecycle),
-      broker_(runtime),
+      broker_(runtime, lifecycle),
       health_(runtime.name(), services::config_hash(config)),
       counters_(health_),
       fuser_(std::move(backend.backend)),
@@ -72,7 +72,6 @@ services::ExitCode FusionNode::run() {
     if (failure_) break;
     publish_progress();
     publish_health();
-    broker_.check();
     auto timeout = kLongestWait;
     if (config_.fusion.rate_hz > 0 && fresh_)
       timeout = std::clamp(std::chrono::milliseconds((next_tick_ns_ - ipc::monotonic_ns()) / 1'000'000 + 1),

@@ -46,7 +46,7 @@ ExitCode run(const services::VehicleConfig& config, services::Lifecycle& lifecyc
 }  // namespace
 
 int main(int argc, char** argv) {
-  services::Lifecycle lifecycle;
+  services::Lifecycle lifecycle(services::kLeaveWithin);
   services::Cli cli("gvom-fusion", "Fuses the buffer maps of all lidars and publishes layers.");
   const auto config = cli.parse(argc, argv);
   if (!config) return services::to_int(config.error());

@@ -47,7 +47,7 @@ IngestNode::IngestNode(const services::VehicleConfig& config, const services::Li
     : lidar_(lidar),
       bus_(bus),
       lifecycle_(lifecycle),
-      broker_(runtime),
+      broker_(runtime, lifecycle),
       health_(runtime.name(), services::config_hash(config)),
       counters_(health_),
       mapper_(config.mapper.map, std::move(equipment.backend.backend)),
@@ -79,7 +79,6 @@ ExitCode IngestNode::run() {
     if (all_mapped && is_settled()) acknowledged_sequence_ = odometry_sequence_;
     publish_progress();
     publish_health();
-    broker_.check();
     while (const auto warning = reader_.new_warning()) spdlog::warn("{}", *warning);
     if (const auto error = reader_.error(); error && front_ == nullptr && reader_.at_end()) {
       spdlog::error("{}", *error);

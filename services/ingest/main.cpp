@@ -49,7 +49,7 @@ ExitCode run(const services::VehicleConfig& config, const services::LidarConfig&
 }  // namespace
 
 int main(int argc, char** argv) {
-  services::Lifecycle lifecycle;
+  services::Lifecycle lifecycle(services::kLeaveWithin);
   services::Cli cli("gvom-ingest", "Maps the sweeps of one lidar and publishes buffer maps.");
   std::string name;
   cli.app().add_option("--lidar", name, "which of the vehicle's lidars")->required();

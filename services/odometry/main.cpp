@@ -66,7 +66,7 @@ ExitCode replay(const std::vector<StampedPose>& poses, const std::vector<std::st
 }  // namespace
 
 int main(int argc, char** argv) {
-  services::Lifecycle lifecycle;
+  services::Lifecycle lifecycle(services::kLeaveWithin);
   services::Cli cli(kName, "Publishes the odometry of a recording: the clock of a replay.");
   Options options;
   add_options(cli.app(), options);

@@ -57,7 +57,7 @@ Replay::Replay(const std::vector<StampedPose>& poses, const std::vector<std::str
       options_(options),
       bus_(bus),
       lifecycle_(lifecycle),
-      broker_(runtime),
+      broker_(runtime, lifecycle),
       epoch_(now_ns()),
       readers_(lidars, epoch_),
       health_(runtime.name(), options.config_hash),
@@ -192,7 +192,6 @@ Replay::Outcome Replay::serve(std::chrono::milliseconds timeout) {
   take_progress();
   if (health_.due(ipc::monotonic_ns())) publish_health();
   services::notify_watchdog();
-  broker_.check();
   if (lifecycle_.stopping()) return tl::make_unexpected(ExitCode::ok);
   return {};
 }

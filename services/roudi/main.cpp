@@ -15,6 +15,9 @@ namespace {
 using namespace gvom;
 using services::ExitCode;
 
+/// It gives back gigabytes of memory.
+constexpr std::chrono::seconds kLeaveWithin{4};
+
 tl::expected<void, services::ConfigError> check_pools(const services::VehicleConfig& config) {
   const auto plan = ipc::plan_pools(services::pool_spec(config));
   if (plan) return {};
@@ -53,7 +56,7 @@ ExitCode serve(const services::VehicleConfig& config, services::Lifecycle& lifec
 }  // namespace
 
 int main(int argc, char** argv) {
-  services::Lifecycle lifecycle;
+  services::Lifecycle lifecycle(kLeaveWithin);
   services::Cli cli("gvom-roudi", "The shared-memory broker: start it first, stop it last.");
   cli.also_check(check_pools);
   const auto config = cli.parse(argc, argv);

@@ -82,6 +82,42 @@ TEST_CASE("a second signal ends the process at once with 128 + its number") {
   CHECK(WEXITSTATUS(status) == 128 + SIGINT);
 }
 
+TEST_CASE("a service that something holds at its end leaves all the same, with a word") {
+  for (const bool after_main :
+       {false, true}) {  // iceoryx holds processes in destructors of static objects, too
+    int said[2];
+    REQUIRE(pipe(said) == 0);
+    const int status = status_of([&] {
+      dup2(said[1], STDERR_FILENO);
+      auto lifecycle = std::make_unique<Lifecycle>(50ms);
+      kill(getpid(), SIGTERM);
+      while (!lifecycle->stopping()) std::this_thread::sleep_for(1ms);
+      if (after_main) lifecycle.reset();
+      std::this_thread::sleep_for(20s);
+      return 1;
+    });
+    CHECK(WIFEXITED(status));
+    CHECK(WEXITSTATUS(status) == 0);
+    char words[200] = {};
+    CHECK(read(said[0], words, sizeof words - 1) > 0);
+    CHECK_THAT(words, Catch::Contains("still held by something: leaving at once"));
+    close(said[0]);
+    close(said[1]);
+  }
+}
+
+TEST_CASE("SIGHUP ends no service: it says a word and goes on") {
+  const int status = status_of([] {
+    Lifecycle lifecycle(20s);
+    for (int i = 0; i < 3; ++i) kill(getpid(), SIGHUP);
+    if (!lifecycle.sleep_until(steady_clock::now() + 100ms)) return 1;
+    kill(getpid(), SIGTERM);
+    return lifecycle.sleep_until(steady_clock::now() + 20s) ? 2 : 0;
+  });
+  CHECK(WIFEXITED(status));
+  CHECK(WEXITSTATUS(status) == 0);
+}
+
 TEST_CASE("when the lifecycle has ended a signal has its usual effect") {
   const int status = status_of([] {
     { Lifecycle lifecycle; }

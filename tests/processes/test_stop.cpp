@@ -126,3 +126,26 @@ TEST_CASE("one signal ends who joins a broker that hangs") {
   graph.roudi().send(SIGCONT);
   graph.stop();
 }
+
+TEST_CASE("one signal ends who leaves a broker that hangs, or that ends at the same moment") {
+  const TemporaryFolder folder;
+  const Vehicle vehicle = simulated(folder.path(), 0.2);
+  for (const bool hangs : {true, false}) {
+    Graph graph(vehicle);
+    graph.start_readers();
+    CHECK(graph.fusion().says("fusing 2 lidars"));
+    CHECK(graph.ingest("front").says("front from"));
+    CHECK(graph.ingest("rear").says("rear from"));
+    graph.roudi().send(hangs ? SIGSTOP : SIGTERM);
+    for (Program* const program : {&graph.fusion(), &graph.ingest("front"), &graph.ingest("rear")})
+      program->send(SIGTERM);
+    for (Program* const program : {&graph.fusion(), &graph.ingest("front"), &graph.ingest("rear")}) {
+      CHECK(program->wait(20s) == 0);
+      INFO(program->output());
+      CHECK(program->output().size() < 4000);  // nobody repeats a complaint
+    }
+    graph.roudi().send(SIGCONT);
+    if (!hangs) CHECK(graph.roudi().wait(20s) == 0);  // a second signal would end it at once
+    graph.stop();
+  }
+}

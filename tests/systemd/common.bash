@@ -63,7 +63,7 @@ use_live_vehicle() {  # its sensors send to ports, at 20 Hz; it publishes its ow
   install --owner gvom --directory /tmp/gvom-test
   sed --in-place --expression 's|ouster:front.pcap|"ouster-udp:7502|; s|ouster:rear.pcap|"ouster-udp:7503|' \
     --expression 's|meta=.*.json|&"|' "$vehicle"
-  printf '%s\n' '[Unit]' 'PartOf=gvom.target gvom-roudi.service' Requires=gvom-roudi.service After=gvom-roudi.service \
+  printf '%s\n' '[Unit]' PartOf=gvom.target After=gvom-roudi.service \
     '[Service]' Type=notify 'ExecStart=/usr/local/bin/gvom-test-vehicle /var/lib/gvom /tmp/gvom-test front:7502 rear:7503' \
     Restart=always TimeoutStopSec=1 '[Install]' WantedBy=gvom.target > /etc/systemd/system/gvom-test-vehicle.service
   systemctl --quiet disable gvom-odometry
