@@ -111,6 +111,21 @@ SourceResult open_packets(const SourceUri& uri, const SourceOptions& options, bo
   return std::make_unique<PacketSweepSource>(std::move(state), std::move(*packets), std::move(*decoder));
 }
 
+SourceResult open_scans(const SourceUri& uri, const SourceOptions& options) {
+  ScanSource::Format format;
+  if (const auto text = uri.option("floats")) {
+    if (*text != "4" && *text != "5" && *text != "6")
+      return tl::unexpected("source '" + uri.text + "': floats=" + *text + ": expected 4, 5 or 6");
+    format.floats = static_cast<std::size_t>((*text)[0] - '0');
+  }
+  if (const auto text = uri.option("time")) {
+    format.time = parse_time_unit(*text);
+    if (!format.time)
+      return tl::unexpected("source '" + uri.text + "': time=" + *text + ": expected ns, us, ms, s or none");
+  }
+  return ScanSource::open(uri.path, options, format);
+}
+
 }  // namespace
 
 tl::expected<std::unique_ptr<Source>, SourceError> open_source(const std::string& text,
@@ -122,7 +137,7 @@ tl::expected<std::unique_ptr<Source>, SourceError> open_source(const std::string
       {"ouster-udp", {"bind", "meta", "serial"}},
       {"velodyne", {"model", "model_byte", "port", "returns"}},
       {"velodyne-udp", {"bind", "model", "model_byte", "returns"}},
-      {"scans", {}},
+      {"scans", {"floats", "time"}},
   };
   const auto scheme = schemes.find(uri->scheme);
   if (scheme == schemes.end()) {
@@ -131,7 +146,7 @@ tl::expected<std::unique_ptr<Source>, SourceError> open_source(const std::string
   }
   const auto checked = check_options(*uri, scheme->second);
   if (!checked) return tl::unexpected(checked.error());
-  if (uri->scheme == "scans") return ScanSource::open(uri->path, options);
+  if (uri->scheme == "scans") return open_scans(*uri, options);
   const bool live = uri->scheme == "ouster-udp" || uri->scheme == "velodyne-udp";
   return open_packets(*uri, options, live);
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdlib>
+#include <optional>
 #include <sstream>
 #include <string_view>
 #include <type_traits>
@@ -20,6 +21,7 @@ constexpr std::size_t kMaxLzfRatio = 128;  // more than LZF can reach
 
 struct Header {
   PcdCloud cloud;
+  std::optional<std::size_t> width, height, points;
   std::size_t point_bytes = 0;
   std::size_t values = 0;  // numbers a point
   std::string data;        // ascii, binary, binary_compressed
@@ -46,6 +48,14 @@ tl::expected<void, std::string> for_fields(std::istringstream& line, const std::
   return {};
 }
 
+tl::expected<void, std::string> read_size(std::istringstream& line, const std::string& key,
+                                          std::optional<std::size_t>& size) {
+  const auto values = words<std::size_t>(line, key);
+  if (!values || (*values)[0] > kMaxPoints) return tl::unexpected(key + ": not a sane number");
+  size = (*values)[0];
+  return {};
+}
+
 tl::expected<void, std::string> read_header_line(const std::string& text, Header& header) {
   std::istringstream line(text);
   std::string key;
@@ -59,12 +69,24 @@ tl::expected<void, std::string> read_header_line(const std::string& text, Header
   if (key == "COUNT") {
     return for_fields<std::size_t>(line, key, header, [](PcdField& f, std::size_t v) { f.count = v; });
   }
-  if (key == "POINTS") {
-    const auto values = words<std::size_t>(line, key);
-    if (!values || (*values)[0] > kMaxPoints) return tl::unexpected(std::string("POINTS: not a sane number"));
-    header.cloud.points = (*values)[0];
-  }
+  if (key == "WIDTH") return read_size(line, key, header.width);
+  if (key == "HEIGHT") return read_size(line, key, header.height);
+  if (key == "POINTS") return read_size(line, key, header.points);
   if (key == "DATA") line >> header.data;
+  return {};
+}
+
+tl::expected<void, std::string> count_points(Header& header) {
+  const std::size_t height = header.height.value_or(1);
+  if (!header.points && !header.width) return tl::unexpected(std::string("neither POINTS nor WIDTH"));
+  const std::size_t points = header.width ? *header.width * height : *header.points;
+  if (header.points && *header.points != points) {
+    return tl::unexpected("POINTS is " + std::to_string(*header.points) + ", WIDTH * HEIGHT " +
+                          std::to_string(points));
+  }
+  if (points > kMaxPoints) return tl::unexpected(std::string("more points than 2^28"));
+  header.cloud.points = points;
+  header.cloud.height = height;
   return {};
 }
 
@@ -74,7 +96,7 @@ tl::expected<void, std::string> check_fields(Header& header) {
     const bool real = field.type == 'F' && (field.size == 4 || field.size == 8);
     const bool whole = (field.type == 'I' || field.type == 'U') &&
                        (field.size == 1 || field.size == 2 || field.size == 4 || field.size == 8);
-    if ((!real && !whole) || field.count == 0 || field.count > kMaxPointBytes) {
+    if ((!real && !whole) || field.count > kMaxPointBytes) {
       return tl::unexpected("field '" + field.name + "': TYPE, SIZE or COUNT that PCD does not have");
     }
     field.offset = header.point_bytes;
@@ -83,6 +105,7 @@ tl::expected<void, std::string> check_fields(Header& header) {
     if (header.point_bytes > kMaxPointBytes)
       return tl::unexpected(std::string("points of more than 4096 bytes"));
   }
+  if (header.point_bytes == 0) return tl::unexpected(std::string("points of no bytes"));
   for (PcdField& field : header.cloud.fields) field.stride = header.point_bytes;
   return {};
 }
@@ -101,7 +124,8 @@ tl::expected<Header, std::string> read_header(std::string_view file) {
     at = end + 1;
   }
   header.body_at = at;
-  const auto checked = check_fields(header);
+  auto checked = check_fields(header);
+  if (checked) checked = count_points(header);
   if (!checked) return tl::unexpected(checked.error());
   return header;
 }
@@ -223,6 +247,7 @@ tl::expected<PcdCloud, std::string> parse_pcd(Bytes file, std::vector<std::uint8
       return tl::unexpected("holds " + std::to_string(body.size / header->point_bytes) + " of its " +
                             std::to_string(header->cloud.points) + " points");
     }
+    header->cloud.more_points = body.size / header->point_bytes - header->cloud.points;
   } else if (header->data == "ascii") {
     unpacked = unpack_ascii(*header, text.substr(header->body_at), scratch);
   } else if (header->data == "binary_compressed") {

@@ -17,7 +17,7 @@ struct PcdField {
   std::string name;
   char type = 'F';
   std::size_t size = 4;    ///< Bytes: 1, 2, 4, 8.
-  std::size_t count = 1;   ///< Values a point.
+  std::size_t count = 1;   ///< Values a point; 0: named in the header only.
   std::size_t offset = 0;  ///< Of the first point's value.
   std::size_t stride = 0;  ///< From a point to the next.
 };
@@ -26,6 +26,8 @@ struct PcdField {
 struct PcdCloud {
   std::vector<PcdField> fields;
   std::size_t points = 0;
+  std::size_t more_points = 0;  ///< What DATA binary holds beyond `points`.
+  std::size_t height = 1;       ///< Above 1: organised, rows of equal length.
   Bytes body;
 
   /// Null if there is no such field.
@@ -35,8 +37,9 @@ struct PcdCloud {
   [[nodiscard]] std::int64_t integer(const PcdField& field, std::size_t point) const;
 };
 
-/// Reads `file` (DATA ascii, binary, binary_compressed). `scratch` keeps the unpacked data; the cloud points
-/// into one of the two. Errors say what is wrong, without the file's name.
+/// Reads `file` (DATA ascii, binary, binary_compressed). Without POINTS there are WIDTH * HEIGHT. `scratch`
+/// keeps the unpacked data; the cloud points into one of the two. Errors say what is wrong, without the
+/// file's name.
 tl::expected<PcdCloud, std::string> parse_pcd(Bytes file, std::vector<std::uint8_t>& scratch);
 
 }  // namespace gvom::ingest

@@ -17,42 +17,38 @@
 namespace gvom::ingest {
 namespace {
 
-constexpr std::size_t kBinPoint = 16;   // float32 x, y, z, intensity
-constexpr double kAbsoluteFromS = 1e8;  // a larger time is one of the clock, not of the sweep
-constexpr double kMaxTimeS = 4e9;
+constexpr std::size_t kFilesToJudge = 20;
 
-/// The time of a point, as the file has it, in ns; nothing if it is not one.
-std::optional<std::int64_t> read_time_ns(const PcdCloud& cloud, const PcdField& field, std::size_t point) {
-  if (field.type != 'F') {
-    const std::int64_t time_ns = cloud.integer(field, point);
-    if (static_cast<double>(time_ns) < -kMaxTimeS * 1e9 || static_cast<double>(time_ns) > kMaxTimeS * 1e9)
-      return std::nullopt;
-    return time_ns;
-  }
-  const double time_s = cloud.number(field, point);
-  if (!(std::abs(time_s) <= kMaxTimeS)) return std::nullopt;
-  return std::llround(time_s * 1e9);
-}
+const std::string kSayFloats = ": say scans:PATH?floats=4 (x y z intensity), 5 (nuScenes) or 6 (Waymo)";
 
-const PcdField* find_time_field(const PcdCloud& cloud) {
-  for (const char* name : {"t", "time", "timestamp", "time_offset", "offset_time"}) {
-    if (const PcdField* field = cloud.find(name)) return field;
-  }
-  return nullptr;
+bool is_bin(const ScanFile& scan) {
+  return scan.path.compare(scan.path.size() - 4, 4, ".bin") == 0;
 }
 
 }  // namespace
 
 tl::expected<std::unique_ptr<Source>, std::string> ScanSource::open(const std::string& path,
-                                                                    const SourceOptions& options) {
+                                                                    const SourceOptions& options,
+                                                                    const Format& format) {
   SourceState state;
   auto scans = list_scans(path, state.warnings);
   if (!scans) return tl::unexpected(scans.error());
-  return std::unique_ptr<Source>(new ScanSource(std::move(*scans), options, std::move(state)));
+  std::unique_ptr<ScanSource> source(new ScanSource(std::move(*scans), options, std::move(state), format));
+  if (!format.floats && is_bin(source->scans_[0])) {
+    const auto found = source->find_floats();
+    if (!found) return tl::unexpected(found.error());
+  }
+  return source;
 }
 
-ScanSource::ScanSource(std::vector<ScanFile> scans, const SourceOptions& options, SourceState state)
-    : scans_(std::move(scans)), max_returns_(options.max_returns), state_(std::move(state)) {
+ScanSource::ScanSource(std::vector<ScanFile> scans, const SourceOptions& options, SourceState state,
+                       const Format& format)
+    : scans_(std::move(scans)),
+      max_returns_(options.max_returns),
+      state_(std::move(state)),
+      floats_(format.floats.value_or(kMinFloats)),
+      floats_asked_(format.floats.has_value()),
+      times_(format.time) {
   std::uintmax_t largest = 0;
   for (const ScanFile& scan : scans_) {
     std::error_code error;
@@ -62,14 +58,51 @@ ScanSource::ScanSource(std::vector<ScanFile> scans, const SourceOptions& options
   file_.reserve(largest);
 }
 
+/// By the values of the first files that tell it, else by the sizes of all.
+tl::expected<void, std::string> ScanSource::find_floats() {
+  bool empty = true;
+  for (std::size_t i = 0; i < std::min(scans_.size(), kFilesToJudge); ++i) {
+    const auto read = read_file(scans_[i].path);
+    if (!read) return tl::unexpected(scans_[i].path + ": " + read.error());
+    const FloatsJudgement judgement = judge_floats({file_.data(), file_.size()});
+    empty = empty && judgement.empty;
+    if (judgement.kind == FloatsJudgement::Kind::unknown) continue;
+    const bool found = judgement.kind == FloatsJudgement::Kind::found;
+    if (!found || judgement.floats < kMinFloats || judgement.floats > kMaxFloats) {
+      return tl::unexpected(scans_[i].path + ": " +
+                            (found ? "looks like " + std::to_string(judgement.floats) + " floats a point"
+                                   : "does not look like points of floats") +
+                            "; if it is otherwise" + kSayFloats);
+    }
+    floats_ = judgement.floats;
+    if (floats_ != kMinFloats) {
+      state_.warnings.push_back(
+          scans_[i].path + ": taken as " + std::to_string(floats_) +
+          " floats a point, as its values say (scans:PATH?floats=" + std::to_string(floats_) + ")");
+    }
+    return {};
+  }
+  std::vector<std::size_t> fitting;  // as good a reading as any if there is nothing but zeros
+  for (std::size_t floats = kMinFloats; floats <= kMaxFloats; ++floats) {
+    const bool fits = std::all_of(scans_.begin(), scans_.end(), [floats](const ScanFile& scan) {
+      std::error_code error;
+      return std::filesystem::file_size(scan.path, error) % (floats * sizeof(float)) == 0;
+    });
+    if (fits) fitting.push_back(floats);
+  }
+  if (fitting.size() > 1 && !empty)
+    return tl::unexpected(scans_[0].path + ": too few points to tell how many floats each has" + kSayFloats);
+  if (!fitting.empty()) floats_ = fitting[0];
+  return {};
+}
+
 tl::expected<SourceEvent, std::string> ScanSource::next(Sweep& out, std::chrono::milliseconds) {
   out.clear();
   out.returns.reserve(max_returns_);
   if (index_ == scans_.size()) return SourceEvent::kEnd;
   const ScanFile& scan = scans_[index_++];
   auto done = read_file(scan.path);
-  const bool bin = scan.path.compare(scan.path.size() - 4, 4, ".bin") == 0;
-  if (done) done = bin ? read_bin(scan, out) : read_pcd(scan, out);
+  if (done) done = is_bin(scan) ? read_bin(scan, out) : read_pcd(scan, out);
   if (!done) {
     out.clear();
     index_ = scans_.size();
@@ -81,6 +114,7 @@ tl::expected<SourceEvent, std::string> ScanSource::next(Sweep& out, std::chrono:
 
 tl::expected<void, std::string> ScanSource::rewind() {
   index_ = 0;
+  newest_ns_.reset();
   return {};
 }
 
@@ -103,22 +137,64 @@ tl::expected<void, std::string> ScanSource::read_file(const std::string& path) {
 }
 
 /// How many of the points are taken; the rest is counted.
-std::size_t ScanSource::limit(std::size_t points) {
+std::size_t ScanSource::limit(const ScanFile& scan, std::size_t points) {
   const std::size_t taken = std::min(points, max_returns_);
+  if (taken < points && state_.counters.overflow_returns == 0) {
+    state_.warnings.push_back(scan.path + ": " + std::to_string(points) +
+                              " points, of which max_returns takes " + std::to_string(taken));
+  }
   state_.counters.overflow_returns += points - taken;
   return taken;
 }
 
+/// What the file says against the number of floats that was found, or asked for.
+tl::expected<void, std::string> ScanSource::judge_file(const ScanFile& scan) {
+  const auto checked = check_floats({file_.data(), file_.size()}, floats_);
+  if (checked) return {};
+  if (!floats_asked_) return tl::unexpected(checked.error() + kSayFloats);
+  if (!told_floats_) state_.warnings.push_back(scan.path + ": read as it was asked, but " + checked.error());
+  told_floats_ = true;
+  return {};
+}
+
 tl::expected<void, std::string> ScanSource::read_bin(const ScanFile& scan, Sweep& out) {
-  if (file_.size() % kBinPoint != 0) {
-    return tl::unexpected("its size of " + std::to_string(file_.size()) + " bytes is not a multiple of 16");
+  const std::size_t bytes = floats_ * sizeof(float);
+  if (file_.size() % bytes != 0) {
+    return tl::unexpected("its size of " + std::to_string(file_.size()) + " bytes is not a multiple of " +
+                          std::to_string(bytes));
   }
+  const auto judged = judge_file(scan);
+  if (!judged) return judged;
   out.times_ns.push_back(scan.stamp_ns);
   out.stamp_ns = scan.stamp_ns;
-  const std::size_t count = limit(file_.size() / kBinPoint);
+  const std::size_t count = limit(scan, file_.size() / bytes);
   for (std::size_t i = 0; i < count; ++i) {
-    const std::uint8_t* point = file_.data() + i * kBinPoint;
+    const std::uint8_t* point = file_.data() + i * bytes;
     out.returns.push_back({load_le<float>(point), load_le<float>(point + 4), load_le<float>(point + 8), 0});
+  }
+  return {};
+}
+
+/// Fills the places and whether they are hits; the times are not known yet.
+tl::expected<void, std::string> ScanSource::read_places(const ScanFile& scan, const PcdCloud& cloud,
+                                                        Sweep& out) {
+  const PcdField* const axes[3] = {cloud.find("x"), cloud.find("y"), cloud.find("z")};
+  for (const PcdField* axis : axes) {
+    if (axis == nullptr || axis->type != 'F' || axis->count != 1)
+      return tl::unexpected(std::string("no floating-point fields x, y, z"));
+  }
+  if (cloud.more_points > 0 && !told_more_points_) {
+    state_.warnings.push_back(scan.path + ": holds " + std::to_string(cloud.more_points) +
+                              " points more than its header says, which are left out");
+    told_more_points_ = true;
+  }
+  const std::size_t count = limit(scan, cloud.points);
+  is_hit_.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Return r{cloud.number(*axes[0], i), cloud.number(*axes[1], i), cloud.number(*axes[2], i), 0};
+    const bool finite = std::isfinite(r.x_m) && std::isfinite(r.y_m) && std::isfinite(r.z_m);
+    is_hit_[i] = finite && (r.x_m != 0 || r.y_m != 0 || r.z_m != 0);
+    out.returns.push_back(r);
   }
   return {};
 }
@@ -126,31 +202,22 @@ tl::expected<void, std::string> ScanSource::read_bin(const ScanFile& scan, Sweep
 tl::expected<void, std::string> ScanSource::read_pcd(const ScanFile& scan, Sweep& out) {
   const auto cloud = parse_pcd({file_.data(), file_.size()}, unpacked_);
   if (!cloud) return tl::unexpected(cloud.error());
-  const PcdField* const axes[3] = {cloud->find("x"), cloud->find("y"), cloud->find("z")};
-  for (const PcdField* axis : axes) {
-    if (axis == nullptr || axis->type != 'F')
-      return tl::unexpected(std::string("no floating-point fields x, y, z"));
-  }
-  const std::size_t count = limit(cloud->points);
-  const PcdField* time_field = find_time_field(*cloud);
-  point_times_ns_.assign(count, scan.stamp_ns);
-  for (std::size_t i = 0; time_field != nullptr && i < count; ++i) {
-    const auto time_ns = read_time_ns(*cloud, *time_field, i);
-    if (!time_ns)
-      return tl::unexpected("point " + std::to_string(i) + ": '" + time_field->name + "' is not a time");
-    const bool absolute = static_cast<double>(*time_ns) > kAbsoluteFromS * 1e9;
-    point_times_ns_[i] = absolute ? *time_ns : scan.stamp_ns + *time_ns;
-  }
+  auto done = read_places(scan, *cloud, out);
+  if (done) done = times_.read({*cloud, is_hit_, scan.stamp_ns, scan.path}, point_times_ns_, state_.warnings);
+  if (!done) return done;
   out.times_ns = point_times_ns_;
-  if (count == 0) out.times_ns.push_back(scan.stamp_ns);
+  if (out.returns.empty()) out.times_ns.push_back(scan.stamp_ns);
   std::sort(out.times_ns.begin(), out.times_ns.end());
   out.times_ns.erase(std::unique(out.times_ns.begin(), out.times_ns.end()), out.times_ns.end());
   out.stamp_ns = out.times_ns.back();
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < out.returns.size(); ++i) {
     const auto at = std::lower_bound(out.times_ns.begin(), out.times_ns.end(), point_times_ns_[i]);
-    out.returns.push_back({cloud->number(*axes[0], i), cloud->number(*axes[1], i), cloud->number(*axes[2], i),
-                           static_cast<std::uint32_t>(at - out.times_ns.begin())});
+    out.returns[i].time_index = static_cast<std::uint32_t>(at - out.times_ns.begin());
   }
+  const bool has_hits = std::find(is_hit_.begin(), is_hit_.end(), true) != is_hit_.end();
+  if (has_hits && newest_ns_ && out.stamp_ns <= *newest_ns_)
+    return tl::unexpected(std::string("time goes back: it is before the scan in front of it"));
+  if (has_hits) newest_ns_ = out.stamp_ns;
   return {};
 }
 

@@ -46,7 +46,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const char* name = (how & 1) != 0 ? "/a.pcd" : "/a.bin";
   if ((how & 2) != 0) folder.write("/times.txt", input.take(input.value<std::uint16_t>()));
   folder.write(name, input.rest());
-  auto source = ingest::ScanSource::open(folder.path(), {0.0, kMaxReturns});
+  auto source = ingest::ScanSource::open(folder.path(), {0.0, kMaxReturns}, {});
   for (int round = 0; source && round < 2; ++round) {
     Sweep sweep;
     const auto event = (*source)->next(sweep, std::chrono::milliseconds(0));

@@ -143,7 +143,17 @@ void add_clouds(Seeds& seeds) {
   }
   seeds.add("pcd",
             "FIELDS x i u\nSIZE 8 2 1\nTYPE F I U\nCOUNT 1 1 3\nPOINTS 1\nDATA ascii\n1e3 -5 6 7 8\n"s);
+  const std::string padded =
+      "FIELDS x y z _ none timestamp\nSIZE 4 4 4 1 2 8\nTYPE F F F U U F\nCOUNT 1 1 1 2 0 1\nWIDTH 2\nHEIGHT "
+      "1\nDATA ";
+  seeds.add("pcd", padded + "ascii\n1 2 3 0 0 1.7e18\n4 5 6 0 0 1.70000000005e18\n"s);
+  seeds.add("scans", "\x01"s + padded + "ascii\n1 2 3 0 0 1.7e18\n4 5 6 0 0 1.70000000005e18\n");
   seeds.add("scans", "\x00"s + std::string(32, '\x3f'));
+  std::string five;  // x y z intensity ring
+  for (int i = 0; i < 50; ++i)
+    for (const float value : {10.F + static_cast<float>(i), -3.5F, 0.7F, 40.F, static_cast<float>(i % 32)})
+      five.append(reinterpret_cast<const char*>(&value), sizeof value);
+  seeds.add("scans", "\x00"s + five);
   seeds.add("scans", "\x02\x09\x00"s + "12345.678" + std::string(16, '\x40'));
 }
 

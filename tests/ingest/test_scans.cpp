@@ -6,58 +6,11 @@
 #include <limits>
 
 #include "services/ingest/scan_files.hpp"
-#include "tests/ingest/ouster_builder.hpp"
-#include "tests/ingest/recordings.hpp"
-#include "tests/tools/temporary_folder.hpp"
+#include "tests/ingest/scan_builder.hpp"
 
 using namespace gvom;
 using namespace gvom::test;
 using gvom::ingest::SourceEvent;
-
-namespace {
-
-std::string write(const std::string& path, const ByteVector& bytes) {
-  return write_text(path, std::string(bytes.begin(), bytes.end()));
-}
-
-ByteVector bin(const std::vector<float>& values) {
-  ByteVector out;
-  for (const float value : values) put_le(out, value);
-  return out;
-}
-
-std::string header(const std::string& fields, const std::string& sizes, const std::string& types, int points,
-                   const std::string& data) {
-  return "# .PCD v0.7\nVERSION 0.7\nFIELDS " + fields + "\nSIZE " + sizes + "\nTYPE " + types + "\nWIDTH " +
-         std::to_string(points) + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + std::to_string(points) +
-         "\nDATA " + data + "\n";
-}
-
-ByteVector joined(const std::string& text, const ByteVector& body) {
-  ByteVector out(text.begin(), text.end());
-  append(out, body);
-  return out;
-}
-
-Sweep only_sweep(const std::string& path) {
-  auto source = open("scans:" + path);
-  const auto sweeps = all_sweeps(*source);
-  REQUIRE(sweeps.size() == 1);
-  return sweeps[0];
-}
-
-/// The error of reading the only file.
-std::string read_error(const std::string& path) {
-  auto source = open("scans:" + path);
-  Sweep sweep;
-  const auto event = source->next(sweep, std::chrono::milliseconds(0));
-  REQUIRE_FALSE(event.has_value());
-  CHECK(event.error().find(path) == 0);
-  CHECK(source->next(sweep, std::chrono::milliseconds(0)).value() == SourceEvent::kEnd);
-  return event.error();
-}
-
-}  // namespace
 
 TEST_CASE("a .bin holds float32 x y z intensity; zeros and NaN stay returns") {
   TemporaryFolder folder;
@@ -175,6 +128,9 @@ TEST_CASE("scans from the field come with their stamps") {
   const auto raw = open("scans:" + field + "kitti_raw_layout");
   CHECK(raw->warnings().empty());
   CHECK(all_sweeps(*raw).at(0).stamp_ns == 1317042145951199337);
+  const auto points_of = [&](const std::string& name) { return only_sweep(field + name).returns.size(); };
+  CHECK(points_of("pcd_count0_padding/0.pcd") == 11488);
+  CHECK(points_of("pcd_without_points/0.pcd") == 11488);
 }
 
 TEST_CASE("paths that hold no scans are refused") {
@@ -212,6 +168,8 @@ TEST_CASE("returns beyond max_returns are counted") {
   auto source = open("scans:" + path, {0.5, 7});
   CHECK(all_sweeps(*source).at(0).returns.size() == 7);
   CHECK(source->counters().overflow_returns == 3);
+  REQUIRE_FALSE(source->warnings().empty());
+  CHECK(source->warnings().back() == path + ": 10 points, of which max_returns takes 7");
 }
 
 TEST_CASE("ascii PCD: fields by name, doubles, times in nanoseconds from the stamp on") {
@@ -231,17 +189,40 @@ TEST_CASE("ascii PCD: fields by name, doubles, times in nanoseconds from the sta
   CHECK(std::isnan(sweep.returns[2].z_m));
 }
 
-TEST_CASE("binary PCD: times in seconds, relative or of the clock") {
+TEST_CASE("PCD fields of no values, padding, and a header without POINTS") {
   TemporaryFolder folder;
+  const std::string path = folder.path() + "/a.pcd";
+  write_text(path,
+             "VERSION 0.7\nFIELDS x y _ z noise _\nSIZE 4 4 1 4 2 1\nTYPE F F U F U U\nCOUNT 1 1 3 1 0 1\n"
+             "WIDTH 2\nHEIGHT 2\nDATA ascii\n1 2 0 0 0 3 0\n4 5 0 0 0 6 0\n7 8 0 0 0 9 0\n1 1 0 0 0 1 0\n");
+  const Sweep sweep = only_sweep(path);
+  REQUIRE(sweep.returns.size() == 4);
+  CHECK(sweep.returns[1].x_m == 4);
+  CHECK(sweep.returns[1].z_m == 6);
   ByteVector body;
-  for (const double time : {0.05, 1.5e9}) {
-    for (const float value : {1.F, 2.F, 3.F}) put_le(body, value);
-    put_le(body, time);
-  }
-  write(folder.path() + "/a.pcd", joined(header("x y z time", "4 4 4 8", "F F F F", 2, "binary"), body));
-  write_text(folder.path() + "/times.txt", "10\n");
-  const Sweep sweep = only_sweep(folder.path());
-  CHECK(sweep.times_ns == std::vector<std::int64_t>{10'050'000'000, 1'500'000'000'000'000'000});
+  for (const float value : {1.F, 2.F, 3.F, 4.F, 5.F, 6.F}) put_le(body, value);
+  write(path,
+        joined("FIELDS x none y z\nSIZE 4 8 4 4\nTYPE F F F F\nCOUNT 1 0 1 1\nWIDTH 2\nDATA binary\n", body));
+  CHECK(only_sweep(path).returns.at(1).y_m == 5);
+}
+
+TEST_CASE("a PCD's points are as many as its header says, or it is told") {
+  TemporaryFolder folder;
+  const std::string path = folder.path() + "/a.pcd";
+  const std::string fields = "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\n";
+  write_text(path, fields + "WIDTH 3\nHEIGHT 2\nPOINTS 5\nDATA ascii\n");
+  CHECK(read_error(path) == path + ": POINTS is 5, WIDTH * HEIGHT 6");
+  write_text(path, fields + "DATA ascii\n1 2 3\n");
+  CHECK(read_error(path) == path + ": neither POINTS nor WIDTH");
+  write_text(path, "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 0 0 0\nWIDTH 3\nDATA binary\n");
+  CHECK(read_error(path) == path + ": points of no bytes");
+  write_text(path, "FIELDS x y z w\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 0 1\nWIDTH 1\nDATA ascii\n1 2 3\n");
+  CHECK(read_error(path) == path + ": no floating-point fields x, y, z");
+  write(path, joined(fields + "POINTS 1\nDATA binary\n", ByteVector(36)));
+  const auto source = open("scans:" + path);
+  CHECK(all_sweeps(*source).at(0).returns.size() == 1);
+  REQUIRE_FALSE(source->warnings().empty());
+  CHECK(source->warnings().back() == path + ": holds 2 points more than its header says, which are left out");
 }
 
 TEST_CASE("compressed PCD: one array a field") {

@@ -37,5 +37,5 @@ TEST_CASE("URIs that cannot be right are refused with the reason") {
            "model_byte '256' is not a whole number of at most 255");
   contains("velodyne-udp:70000?model=VLP-16", "'70000' is not a UDP port");
   contains("velodyne-udp:2368?model=VLP-16&bind=nonsense", "'nonsense' is not an IPv4 address");
-  contains("scans:a?t=1", "unknown option 't' (scans takes none)");
+  contains("scans:a?t=1", "unknown option 't' (scans takes floats, time)");
 }
