@@ -1,7 +1,7 @@
 // An arctangent of basic operations only, so that CPU and GPU agree to the byte (their libraries' do not).
 #pragma once
 
-#include "core/platform.hpp"
+#include "core/format/platform.hpp"
 
 namespace gvom {
 

@@ -8,8 +8,8 @@
 
 #include <tl/expected.hpp>
 
-#include "core/brick_map.hpp"
-#include "core/layers.hpp"
+#include "core/format/brick_map.hpp"
+#include "core/format/layers.hpp"
 #include "core/returns.hpp"
 #include "core/sweep.hpp"
 #include "core/window.hpp"

@@ -3,7 +3,8 @@
 
 #include <vector>
 
-#include "core/brick_map.hpp"
+#include "core/format/brick_map.hpp"
+#include "core/pose.hpp"
 
 namespace gvom {
 
@@ -20,7 +21,7 @@ class BrickMapStorage {
   }
 
   [[nodiscard]] BrickMapView view(const Grid& grid, std::int64_t stamp_ns, const Pose& T_odom_base) const {
-    return {grid,           stamp_ns,        T_odom_base,    shape_, directory_.data(),
+    return {grid,           stamp_ns,        record_of(T_odom_base), shape_, directory_.data(),
             lookup_.data(), columns_.data(), records_.data()};
   }
 

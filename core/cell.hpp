@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "core/brick_map.hpp"
+#include "core/format/brick_map.hpp"
 
 namespace gvom {
 

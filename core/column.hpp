@@ -5,8 +5,8 @@
 #include <cstdint>
 
 #include "core/config.hpp"
+#include "core/format/layers.hpp"
 #include "core/fused_view.hpp"
-#include "core/layers.hpp"
 #include "core/window.hpp"
 
 namespace gvom {

@@ -8,10 +8,6 @@
 
 namespace gvom {
 
-/// The edge of a brick, the unit of storage and transfer, in voxels (R1).
-inline constexpr int kBrickEdge = 8;
-inline constexpr int kBrickCells = kBrickEdge * kBrickEdge * kBrickEdge;
-
 /// The voxel grid around the vehicle (R1). The defaults are the paper's grid.
 struct MapConfig {
   double resolution_xy_m = 0.4;  ///< Voxel edge in x and y, 0.01 .. 10.

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "core/platform.hpp"
+#include "core/format/platform.hpp"
 
 namespace gvom {
 

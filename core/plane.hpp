@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "core/arctangent.hpp"
-#include "core/platform.hpp"
+#include "core/format/platform.hpp"
 
 namespace gvom {
 

@@ -8,7 +8,7 @@
 
 #include <cstdint>
 
-#include "core/platform.hpp"
+#include "core/format/platform.hpp"
 
 namespace gvom {
 

@@ -5,13 +5,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/brick_map.hpp"
 #include "core/config.hpp"
+#include "core/format/brick_map.hpp"
+#include "core/pose.hpp"
 
 namespace gvom {
-
-/// The most lidars that a vehicle can have.
-inline constexpr int kMaxLidars = 16;
 
 /// A buffer map with where it came from.
 struct WindowMap {
@@ -65,7 +63,7 @@ class Window {
 /// The newest map's moment. The window must not be empty.
 inline LayerMoment newest_moment(const Window& window) {
   const BrickMapView& newest = window.maps().front().view;
-  return {newest.grid, newest.stamp_ns, newest.T_odom_base};
+  return {newest.grid, newest.stamp_ns, pose_of(newest.T_odom_base)};
 }
 
 }  // namespace gvom

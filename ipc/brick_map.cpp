@@ -19,34 +19,38 @@ Span<const T> array_at(const std::byte* base, std::size_t offset, std::size_t co
 }
 
 BrickMapLayout layout_of(const BrickMap& map) {
-  return brick_map_layout(map.brick_slots, map.brick_count, map.record_count);
+  return brick_map_layout(map.shape);
 }
 
 std::size_t lookup_count(std::uint32_t brick_count) {
-  return brick_count * kBrickVoxels;
+  return std::size_t{brick_count} * kBrickCells;
 }
 
 /// The bytes between the arrays would else carry an older message's.
 void zero_padding(std::byte* base, const BrickMap& map, const BrickMapLayout& layout) {
   const auto zero = [base](std::size_t from, std::size_t to) { std::memset(base + from, 0, to - from); };
-  zero(layout.directory + map.brick_slots * sizeof(std::int32_t), layout.lookup);
-  zero(layout.lookup + lookup_count(map.brick_count) * sizeof(std::int32_t), layout.columns);
-  zero(layout.columns + map.brick_count * sizeof(std::uint64_t), layout.records);
+  zero(layout.directory + map.shape.brick_slots * sizeof(std::int32_t), layout.lookup);
+  zero(layout.lookup + lookup_count(map.shape.brick_count) * sizeof(std::int32_t), layout.columns);
+  zero(layout.columns + map.shape.brick_count * sizeof(std::uint64_t), layout.records);
 }
 
 }  // namespace
 
 Span<std::int32_t> BrickMapWriter::directory() const {
-  return array_at<std::int32_t>(loan_.data(), layout_.directory, header().brick_slots);
+  return array_at<std::int32_t>(loan_.data(), layout_.directory, header().shape.brick_slots);
 }
 Span<std::int32_t> BrickMapWriter::lookup() const {
-  return array_at<std::int32_t>(loan_.data(), layout_.lookup, lookup_count(header().brick_count));
+  return array_at<std::int32_t>(loan_.data(), layout_.lookup, lookup_count(header().shape.brick_count));
 }
 Span<std::uint64_t> BrickMapWriter::columns() const {
-  return array_at<std::uint64_t>(loan_.data(), layout_.columns, header().brick_count);
+  return array_at<std::uint64_t>(loan_.data(), layout_.columns, header().shape.brick_count);
 }
 Span<VoxelRecord> BrickMapWriter::records() const {
-  return array_at<VoxelRecord>(loan_.data(), layout_.records, header().record_count);
+  return array_at<VoxelRecord>(loan_.data(), layout_.records, header().shape.record_count);
+}
+
+BrickMapArrays BrickMapWriter::arrays() const {
+  return {directory().data(), lookup().data(), columns().data(), records().data()};
 }
 
 BrickMapPublisher::BrickMapPublisher(OutPort port, std::string lidar, std::size_t capacity_bytes)
@@ -67,9 +71,8 @@ Expected<BrickMapPublisher> BrickMapPublisher::voxel_map(Runtime& runtime, std::
   });
 }
 
-Expected<BrickMapWriter> BrickMapPublisher::loan(std::uint32_t brick_slots, std::uint32_t brick_count,
-                                                 std::uint32_t record_count) {
-  const BrickMapLayout layout = brick_map_layout(brick_slots, brick_count, record_count);
+Expected<BrickMapWriter> BrickMapPublisher::loan(const BrickMapShape& shape) {
+  const BrickMapLayout layout = brick_map_layout(shape);
   if (layout.bytes > capacity_bytes_) {
     return tl::unexpected(Error{ErrorKind::too_large, "a map of " + std::to_string(layout.bytes) +
                                                           " bytes is beyond the capacity of " +
@@ -80,9 +83,7 @@ Expected<BrickMapWriter> BrickMapPublisher::loan(std::uint32_t brick_slots, std:
     auto& map = *reinterpret_cast<BrickMap*>(loan.data());
     std::memset(loan.data(), 0, layout.directory);
     set_text(map.lidar, lidar_);
-    map.brick_slots = brick_slots;
-    map.brick_count = brick_count;
-    map.record_count = record_count;
+    map.shape = shape;
     zero_padding(loan.data(), map, layout);
     return BrickMapWriter(std::move(loan), layout);
   });
@@ -97,16 +98,23 @@ std::uint64_t BrickMapPublisher::publish(BrickMapWriter&& writer, std::int64_t s
 BrickMapSample::BrickMapSample(Chunk chunk) : chunk_(std::move(chunk)), layout_(layout_of(header())) {}
 
 Span<const std::int32_t> BrickMapSample::directory() const {
-  return array_at<std::int32_t>(chunk_.data(), layout_.directory, header().brick_slots);
+  return array_at<std::int32_t>(chunk_.data(), layout_.directory, header().shape.brick_slots);
 }
 Span<const std::int32_t> BrickMapSample::lookup() const {
-  return array_at<std::int32_t>(chunk_.data(), layout_.lookup, lookup_count(header().brick_count));
+  return array_at<std::int32_t>(chunk_.data(), layout_.lookup, lookup_count(header().shape.brick_count));
 }
 Span<const std::uint64_t> BrickMapSample::columns() const {
-  return array_at<std::uint64_t>(chunk_.data(), layout_.columns, header().brick_count);
+  return array_at<std::uint64_t>(chunk_.data(), layout_.columns, header().shape.brick_count);
 }
 Span<const VoxelRecord> BrickMapSample::records() const {
-  return array_at<VoxelRecord>(chunk_.data(), layout_.records, header().record_count);
+  return array_at<VoxelRecord>(chunk_.data(), layout_.records, header().shape.record_count);
+}
+
+BrickMapView BrickMapSample::view() const {
+  const BrickMap& map = header();
+  return {map.grid,         map.header.stamp_ns, map.T_odom_base,
+          map.shape,        directory().data(),  lookup().data(),
+          columns().data(), records().data(),    layout_.bytes - layout_.directory};
 }
 
 Expected<BrickMapSubscriber> BrickMapSubscriber::buffer_map(Runtime& runtime, const std::string& lidar) {

@@ -21,6 +21,7 @@ class BrickMapWriter {
   [[nodiscard]] Span<std::int32_t> lookup() const;     ///< brick_count * 512
   [[nodiscard]] Span<std::uint64_t> columns() const;   ///< brick_count
   [[nodiscard]] Span<VoxelRecord> records() const;     ///< record_count
+  [[nodiscard]] BrickMapArrays arrays() const;         ///< All four.
 
  private:
   friend class BrickMapPublisher;
@@ -38,8 +39,7 @@ class BrickMapPublisher {
   static Expected<BrickMapPublisher> voxel_map(Runtime& runtime, std::size_t capacity_bytes);
 
   /// Errors: too_large (beyond the capacity, or the broker's pools are of another configuration), exhausted.
-  Expected<BrickMapWriter> loan(std::uint32_t brick_slots, std::uint32_t brick_count,
-                                std::uint32_t record_count);
+  Expected<BrickMapWriter> loan(const BrickMapShape& shape);
 
   /// Stamps mono_published_ns and sends; returns the sequence number.
   std::uint64_t publish(BrickMapWriter&& writer, std::int64_t stamp_ns, std::uint64_t epoch);
@@ -72,6 +72,8 @@ class BrickMapSample {
   [[nodiscard]] Span<const std::int32_t> lookup() const;
   [[nodiscard]] Span<const std::uint64_t> columns() const;
   [[nodiscard]] Span<const VoxelRecord> records() const;
+  /// The map with its arrays, to be read where it lies: while this sample lives.
+  [[nodiscard]] BrickMapView view() const;
 
   /// Nothing if the arrays are what a map's can be: the directory names each brick once, in the order of
   /// their slots; as many voxels as there are records lead to one, each to one that is there; the columns

@@ -10,8 +10,6 @@ namespace {
 using Checked = tl::expected<void, MapFault>;
 using Part = MapFault::Part;
 
-constexpr std::size_t kBrickColumns = kBrickVoxels / kBrickEdgeVoxels;
-
 Checked broken(Part part, std::string why) {
   return tl::unexpected(MapFault{part, "map refused: " + std::move(why)});
 }
@@ -43,26 +41,26 @@ BrickSums sums_of(const std::int32_t* lookup, std::int32_t record_count) {
   constexpr std::int32_t kUnobserved = -1;
   BrickSums sums;
   std::uint8_t observed[kBrickColumns];
-  for (std::size_t column = 0; column < kBrickColumns; ++column) {
+  for (int column = 0; column < kBrickColumns; ++column) {
     std::uint32_t any = 0;
-    for (std::size_t i = column * kBrickEdgeVoxels; i < (column + 1) * kBrickEdgeVoxels; ++i) {
+    for (int i = column * kBrickEdge; i < (column + 1) * kBrickEdge; ++i) {
       any |= static_cast<std::uint32_t>(lookup[i] ^ kUnobserved);
       sums.hits += lookup[i] >= 0 ? 1 : 0;
       sums.beyond += lookup[i] >= record_count ? 1 : 0;
     }
     observed[column] = any != 0 ? 1 : 0;
   }
-  for (std::size_t column = 0; column < kBrickColumns; ++column)
+  for (int column = 0; column < kBrickColumns; ++column)
     sums.columns |= std::uint64_t{observed[column]} << column;
   return sums;
 }
 
 Checked check_bricks(const BrickMapSample& map) {
-  const std::uint32_t records = map.header().record_count;
+  const std::uint32_t records = map.header().shape.record_count;
   std::uint64_t hits = 0;
-  for (std::uint32_t brick = 0; brick < map.header().brick_count; ++brick) {
+  for (std::uint32_t brick = 0; brick < map.header().shape.brick_count; ++brick) {
     const BrickSums sums =
-        sums_of(map.lookup().data() + brick * kBrickVoxels, static_cast<std::int32_t>(records));
+        sums_of(map.lookup().data() + std::size_t{brick} * kBrickCells, static_cast<std::int32_t>(records));
     hits += sums.hits;
     if (sums.beyond != 0) {
       return broken(Part::lookup, std::to_string(sums.beyond) + " voxels of brick " + std::to_string(brick) +
@@ -92,7 +90,7 @@ Checked check_records(Span<const VoxelRecord> records) {
 }  // namespace
 
 tl::expected<void, MapFault> BrickMapSample::validate_deep() const {
-  return check_directory(directory(), header().brick_count)
+  return check_directory(directory(), header().shape.brick_count)
       .and_then([this] { return check_bricks(*this); })
       .and_then([this] { return check_records(records()); });
 }

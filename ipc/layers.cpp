@@ -38,6 +38,25 @@ Span<std::uint8_t> LayersWriter::layer_u8(LayerId id) const {
   return {reinterpret_cast<std::uint8_t*>(loan_.data() + offset_of(layout_, id)), layout_.cells};
 }
 
+LayerArrays LayersWriter::arrays() const {
+  const auto f = [this](LayerId id) { return layer_f(id).data(); };
+  const auto u8 = [this](LayerId id) { return layer_u8(id).data(); };
+  return {f(LayerId::height),
+          f(LayerId::inferred_height),
+          f(LayerId::slope_x),
+          f(LayerId::slope_y),
+          f(LayerId::slope),
+          f(LayerId::roughness),
+          f(LayerId::obstacle_density),
+          f(LayerId::negative_delta),
+          f(LayerId::clearance),
+          f(LayerId::last_seen),
+          u8(LayerId::flags),
+          u8(LayerId::visibility),
+          u8(LayerId::cost),
+          layout_.bytes - layout_.offset.front()};
+}
+
 Expected<LayersPublisher> LayersPublisher::open(Runtime& runtime) {
   return OutPort::open(runtime, layers_topic()).map([](OutPort&& port) {
     return LayersPublisher(std::move(port));
@@ -50,7 +69,7 @@ Expected<LayersWriter> LayersPublisher::loan(int size_xy, int size_z) {
     std::memset(loan.data(), 0, layout.offset.front());
     zero_padding(loan.data(), layout);
     LayersWriter writer(std::move(loan), layout);
-    auto& size = writer.header().size_voxels;
+    auto& size = writer.header().grid.size;
     size[0] = size[1] = size_xy;
     size[2] = size_z;
     return writer;
@@ -76,8 +95,11 @@ Span<const std::uint8_t> LayersSample::layer_u8(LayerId id) const {
 
 std::optional<std::size_t> LayersSample::index_of(double x_m, double y_m) const {
   const Layers& layers = header();
-  const double x = std::floor(x_m / layers.resolution_m[0]) - layers.origin_voxels[0];
-  const double y = std::floor(y_m / layers.resolution_m[1]) - layers.origin_voxels[1];
+  const auto column = [&layers](double metres, std::size_t axis) {
+    return std::floor(voxel_coordinate(metres, layers.grid.resolution_m[axis])) - layers.grid.origin[axis];
+  };
+  const double x = column(x_m, 0);
+  const double y = column(y_m, 1);
   const bool inside = x >= 0 && y >= 0 && x < size_xy() && y < size_xy();
   if (!inside) return std::nullopt;
   return at(static_cast<int>(x), static_cast<int>(y));

@@ -14,7 +14,7 @@
 
 namespace gvom::ipc {
 
-/// Layers being written. Arrays hold old data until written; the header is zero but for size_voxels.
+/// Layers being written. Arrays hold old data until written; the header is zero but for its size.
 /// Destroyed without having been published, it gives its chunk back.
 class LayersWriter {
  public:
@@ -23,6 +23,7 @@ class LayersWriter {
   [[nodiscard]] Span<float> layer_f(LayerId id) const;
   /// The same of flags, visibility or cost; empty for the others.
   [[nodiscard]] Span<std::uint8_t> layer_u8(LayerId id) const;
+  [[nodiscard]] LayerArrays arrays() const;  ///< All of them.
 
  private:
   friend class LayersPublisher;
@@ -58,7 +59,7 @@ class LayersSample {
   explicit LayersSample(Chunk chunk);
 
   [[nodiscard]] const Layers& header() const { return *reinterpret_cast<const Layers*>(chunk_.data()); }
-  [[nodiscard]] int size_xy() const { return header().size_voxels[0]; }
+  [[nodiscard]] int size_xy() const { return header().grid.size[0]; }
 
   /// size_xy * size_xy values, [y][x], of a float layer (height .. last_seen); empty for the others.
   [[nodiscard]] Span<const float> layer_f(LayerId id) const;

@@ -7,12 +7,14 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "core/format/brick_map.hpp"
+#include "core/format/grid.hpp"
+#include "core/format/layers.hpp"
+
 namespace gvom::ipc {
 
 inline constexpr std::uint32_t kMagic = 0x4D4F5647;  // "GVOM"
 inline constexpr std::size_t kNameLength = 32;       // with the terminating zero
-inline constexpr int kMaxLidars = 16;
-inline constexpr std::size_t kArrayAlignment = 64;  // of every array behind a header
 
 enum class MessageType : std::uint16_t { odometry = 1, buffer_map, layers, voxel_map, health, progress };
 
@@ -26,7 +28,7 @@ struct MessageHeader {
   std::uint64_t epoch;     // raised when the odometry's clock starts again (a looped replay); windows reset
 };
 
-/// Topic "odometry": T_odom_base at `header.stamp_ns`.
+/// Topic "odometry": the pose at `header.stamp_ns`.
 struct Odometry {
   static constexpr MessageType kType = MessageType::odometry;
   static constexpr std::uint16_t kVersion = 1;
@@ -35,43 +37,24 @@ struct Odometry {
     kEndOfStream = 2,  // nothing follows in this epoch; the pose repeats the last one
   };
   MessageHeader header;
-  double position_m[3];
-  double orientation_xyzw[4];  // unit quaternion
+  PoseRecord T_odom_base;
   std::uint32_t flags;
   std::uint32_t reserved;
 };
 
-/// A data record of an occupied voxel (R6).
-struct VoxelRecord {
-  std::uint32_t hits;
-  std::uint32_t passes;
-  float min_height_m;
-};
-
-/// Voxels of a grid in bricks of 8 x 8 x 8 (R6). The arrays behind it, each aligned to 64 bytes, in this
-/// order:
-///   int32  directory[brick_slots]    brick's index or -1 (untouched); slot = (bz * ny_b + by) * nx_b + bx;
-///                                    bricks are numbered in the order of their slots
-///   int32  lookup[brick_count * 512] per voxel: record index, or -1 - passes; cell = (x * 8 + y) * 8 + z
-///   uint64 columns[brick_count]      bit x * 8 + y: some voxel of that column of the brick was observed
-///   VoxelRecord records[record_count]
-/// with nx_b = size_voxels[0] / 8 and so on. Topic "buffer_map" (one sweep of one lidar) and "voxel_map"
-/// (the fused map: counts summed over the window).
+/// Voxels of a grid in bricks of 8 x 8 x 8 (R6): the header, then the arrays of BrickMapArrays as
+/// `brick_map_layout` has them. Topic "buffer_map" (one sweep of one lidar) and "voxel_map" (the fused map:
+/// counts summed over the window).
 struct BrickMap {
   static constexpr std::uint16_t kVersion = 3;
   enum Flags : std::uint32_t {
     kLossless = 1,  // of a replay that waits for its readers: fusion makes layers of each map
   };
   MessageHeader header;
-  char lidar[kNameLength];        // empty in a voxel map
-  std::int32_t origin_voxels[3];  // world voxel of cell (0, 0, 0), multiples of 8 (R1)
-  std::int32_t size_voxels[3];
-  double resolution_m[3];
-  double base_position_m[3];  // base_link in odom at the stamp
-  double base_orientation_xyzw[4];
-  std::uint32_t brick_slots;
-  std::uint32_t brick_count;
-  std::uint32_t record_count;
+  char lidar[kNameLength];  // empty in a voxel map
+  Grid grid;
+  PoseRecord T_odom_base;  // at the stamp
+  BrickMapShape shape;
   float columns_seen_fraction;  // of the sweep's columns, 0 .. 1; 1: it is complete
   std::uint32_t flags;          // Flags
   std::uint32_t reserved;
@@ -89,27 +72,6 @@ struct BrickMap {
       odometry_jump_ns;  // stamp of the first pose after the odometry's last jump in this epoch, 0: none
                          // seen. Maps from before it lie wrongly to those after. Not in a voxel map
 };
-
-enum class LayerId : std::uint32_t {
-  height,
-  inferred_height,
-  slope_x,
-  slope_y,
-  slope,
-  roughness,
-  obstacle_density,
-  negative_delta,
-  clearance,
-  last_seen,
-  flags,
-  visibility,
-  cost,
-};
-inline constexpr int kFloatLayers = 10;  // height .. last_seen: float32; the rest uint8
-inline constexpr int kLayers = 13;
-
-enum ColumnFlags : std::uint8_t { kHard = 1, kSoft = 2, kNegative = 4, kSteep = 8, kAssumed = 16 };
-enum class Visibility : std::uint8_t { unobserved = 0, free_only = 1, ground_assumed = 2, ground_seen = 3 };
 
 /// What the window holds of one lidar.
 struct LidarStatus {
@@ -132,11 +94,8 @@ struct Layers {
   static constexpr MessageType kType = MessageType::layers;
   static constexpr std::uint16_t kVersion = 2;
   MessageHeader header;
-  std::int32_t origin_voxels[3];  // world voxel of column (0, 0) and of the grid's floor
-  std::int32_t size_voxels[3];
-  double resolution_m[3];
-  double base_position_m[3];  // base_link in odom at the stamp
-  double base_orientation_xyzw[4];
+  Grid grid;               // its origin is the world voxel of column (0, 0) and of the floor
+  PoseRecord T_odom_base;  // at the stamp
   std::uint32_t maps_in_window;
   std::uint32_t lidar_count;
   LidarStatus lidars[kMaxLidars];
@@ -203,6 +162,5 @@ static_assert(std::is_trivially_copyable_v<BrickMap> && std::is_standard_layout_
 static_assert(std::is_trivially_copyable_v<Layers> && std::is_standard_layout_v<Layers>);
 static_assert(std::is_trivially_copyable_v<Progress> && std::is_standard_layout_v<Progress>);
 static_assert(std::is_trivially_copyable_v<Health> && std::is_standard_layout_v<Health>);
-static_assert(sizeof(VoxelRecord) == 12);
 
 }  // namespace gvom::ipc

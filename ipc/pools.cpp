@@ -99,19 +99,19 @@ Error pool_too_large(const Demand& demand) {
 }
 
 std::uint64_t voxels(const PoolSpec& spec) {
-  return brick_slots(spec) * std::uint64_t{kBrickVoxels};
+  return brick_slots(spec) * std::uint64_t{kBrickCells};
 }
 
 std::size_t capacity(const PoolSpec& spec, std::uint64_t most_records) {
   const std::uint64_t records = std::min(voxels(spec), most_records);
-  return brick_map_bytes(brick_slots(spec), brick_slots(spec), static_cast<std::uint32_t>(records));
+  return brick_map_bytes({brick_slots(spec), brick_slots(spec), static_cast<std::uint32_t>(records)});
 }
 
 }  // namespace
 
 std::uint32_t brick_slots(const PoolSpec& spec) {
-  const int bricks_xy = spec.size_xy / kBrickEdgeVoxels;
-  return static_cast<std::uint32_t>(bricks_xy * bricks_xy * (spec.size_z / kBrickEdgeVoxels));
+  const int bricks_xy = spec.size_xy / kBrickEdge;
+  return static_cast<std::uint32_t>(bricks_xy * bricks_xy * (spec.size_z / kBrickEdge));
 }
 
 std::size_t buffer_map_capacity(const PoolSpec& spec) {

@@ -73,10 +73,10 @@ Complaint first_of(Complaint a, Complaint b) {
 }
 
 bool is_grid_edge(std::int32_t size) {
-  return size > 0 && size <= kMaxGridVoxels && size % kBrickEdgeVoxels == 0;
+  return size > 0 && size <= kMaxGridVoxels && size % kBrickEdge == 0;
 }
 
-Complaint bad_grid(const std::int32_t (&size)[3]) {
+Complaint bad_grid(const Int3& size) {
   if (size[0] == size[1] && is_grid_edge(size[0]) && is_grid_edge(size[2])) return std::nullopt;
   return "claims a grid of " + std::to_string(size[0]) + " x " + std::to_string(size[1]) + " x " +
          std::to_string(size[2]) + " voxels";
@@ -85,18 +85,18 @@ Complaint bad_grid(const std::int32_t (&size)[3]) {
 /// Of a message that says where it lies. Poses of odometry are their readers' to judge.
 template <typename M>
 Complaint bad_frame(const M& message) {
-  if (auto complaint = bad_grid(message.size_voxels)) return complaint;
+  if (auto complaint = bad_grid(message.grid.size)) return complaint;
   const auto fits = [](std::int32_t origin) {
-    return origin >= -kMaxOriginVoxels && origin <= kMaxOriginVoxels && origin % kBrickEdgeVoxels == 0;
+    return origin >= -kMaxOriginVoxels && origin <= kMaxOriginVoxels && origin % kBrickEdge == 0;
   };
-  const auto& origin = message.origin_voxels;
+  const auto& origin = message.grid.origin;
   if (!std::all_of(std::begin(origin), std::end(origin), fits)) {
     return "claims to begin at voxel (" + std::to_string(origin[0]) + ", " + std::to_string(origin[1]) +
            ", " + std::to_string(origin[2]) + ")";
   }
   const auto near = [](double value) { return std::abs(value) <= kFarthest_m; };  // false for NaN
-  const auto& position = message.base_position_m;
-  const auto& orientation = message.base_orientation_xyzw;
+  const auto& position = message.T_odom_base.position_m;
+  const auto& orientation = message.T_odom_base.orientation_xyzw;
   const bool pose = std::all_of(std::begin(position), std::end(position), near) &&
                     std::all_of(std::begin(orientation), std::end(orientation), near);
   return pose ? Complaint{} : Complaint{"has a pose that is not finite, or over 10,000 km away"};
@@ -141,26 +141,25 @@ Complaint check_layers(const std::byte* message, std::size_t bytes) {
             first_of(bad_time({lidar.newest_stamp_ns}), bad_fraction(lidar.columns_seen_fraction)))
       return complaint;
   return first_of(too_many("lidars", layers.lidar_count, kMaxLidars),
-                  wrong_size(bytes, layers_bytes(layers.size_voxels[0])));
+                  wrong_size(bytes, layers_bytes(layers.grid.size[0])));
 }
 
 Complaint check_brick_map(const std::byte* message, std::size_t bytes) {
   if (bytes < sizeof(BrickMap)) return wrong_size(bytes, sizeof(BrickMap));
   const auto& map = as<BrickMap>(message);
-  const auto& size = map.size_voxels;
   if (auto complaint = bad_frame(map)) return complaint;
   if (auto complaint = bad_time({map.mono_received_ns, map.suspended_ns, map.mono_mapped_ns,
                                  map.mono_published_ns, map.odometry_jump_ns}))
     return complaint;
   if (auto complaint = bad_fraction(map.columns_seen_fraction)) return complaint;
-  const std::uint64_t voxels = std::uint64_t(size[0]) * std::uint64_t(size[1]) * std::uint64_t(size[2]);
-  if (map.brick_slots != voxels / kBrickVoxels) {
-    return "claims " + std::to_string(map.brick_slots) + " brick slots, its grid has " +
-           std::to_string(voxels / kBrickVoxels);
+  const BrickMapShape& shape = map.shape;
+  if (shape.brick_slots != map.grid.brick_slots()) {
+    return "claims " + std::to_string(shape.brick_slots) + " brick slots, its grid has " +
+           std::to_string(map.grid.brick_slots());
   }
-  if (auto complaint = too_many("bricks", map.brick_count, map.brick_slots)) return complaint;
-  return first_of(too_many("records", map.record_count, map.brick_count * std::uint64_t{kBrickVoxels}),
-                  wrong_size(bytes, brick_map_bytes(map.brick_slots, map.brick_count, map.record_count)));
+  if (auto complaint = too_many("bricks", shape.brick_count, shape.brick_slots)) return complaint;
+  return first_of(too_many("records", shape.record_count, shape.brick_count * std::uint64_t{kBrickCells}),
+                  wrong_size(bytes, brick_map_bytes(shape)));
 }
 
 }  // namespace

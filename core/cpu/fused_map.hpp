@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/brick_map.hpp"
 #include "core/cell.hpp"
 #include "core/config.hpp"
+#include "core/format/brick_map.hpp"
 #include "core/fused_view.hpp"
 #include "core/window.hpp"
 

@@ -6,7 +6,7 @@
 #include "core/column.hpp"
 #include "core/cpu/negative_finder.hpp"
 #include "core/cpu/plane_fitter.hpp"
-#include "core/layers.hpp"
+#include "core/format/layers.hpp"
 
 namespace gvom::cpu {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/column.hpp"
-#include "core/layers.hpp"
+#include "core/format/layers.hpp"
 #include "core/negative.hpp"
 
 namespace gvom::cpu {

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "core/brick_map.hpp"
+#include "core/format/brick_map.hpp"
 #include "core/fused_view.hpp"
 
 namespace gvom::cuda {

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "core/platform.hpp"
+#include "core/format/platform.hpp"
 
 namespace gvom::cuda {
 

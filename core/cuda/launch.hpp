@@ -8,7 +8,7 @@
 #include <cstdint>
 
 #include "core/cuda/device.hpp"
-#include "core/platform.hpp"
+#include "core/format/platform.hpp"
 
 #ifdef __CUDACC__
 #include <cuda_runtime.h>

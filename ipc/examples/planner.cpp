@@ -21,9 +21,9 @@ int main() {
       if (layers.error().kind == gvom::ipc::ErrorKind::unavailable) _exit(75);  // to be started again
       continue;  // stand still: there is no map (timeout), or it is old (stale: the message says by how much)
     }
-    const auto cost = layers->layer_u8(gvom::ipc::LayerId::cost);  // read where fusion wrote it
-    const auto& base = layers->header().base_position_m;
-    const auto& q = layers->header().base_orientation_xyzw;
+    const auto cost = layers->layer_u8(gvom::LayerId::cost);  // read where fusion wrote it
+    const auto& base = layers->header().T_odom_base.position_m;
+    const auto& q = layers->header().T_odom_base.orientation_xyzw;
     const double yaw = std::atan2(2 * (q[3] * q[2] + q[0] * q[1]), 1 - 2 * (q[1] * q[1] + q[2] * q[2]));
     std::printf("cost ahead:");
     for (int metres = 2; metres <= 10; metres += 2) {

@@ -28,9 +28,9 @@ std::optional<Conflict> check_cost(const CostConfig& cost) {
 }
 
 std::optional<Conflict> check_lidars(const std::vector<LidarConfig>& lidars) {
-  const std::string most = std::to_string(ipc::kMaxLidars);
+  const std::string most = std::to_string(kMaxLidars);
   if (lidars.empty()) return Conflict{"lidars", "", "missing: expected 1 to " + most + " lidars"};
-  if (lidars.size() > ipc::kMaxLidars) {
+  if (lidars.size() > kMaxLidars) {
     return Conflict{"lidars", "",
                     "expected 1 to " + most + " lidars, found " + std::to_string(lidars.size())};
   }

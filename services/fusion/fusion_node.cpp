@@ -6,7 +6,6 @@
 #include <string>
 #include <utility>
 
-#include "services/common/bus/core_types.hpp"
 #include "services/common/bus/pool_spec.hpp"
 #include "services/common/config_file.hpp"
 
@@ -129,7 +128,7 @@ void FusionNode::fuse(const ArrivedMap& map) {
   lateness_.took(header, now_ns);
   if (!place_in_time(header)) return bus_.inbox.release(map.token);
   const std::int64_t fuse_ns = ipc::monotonic_ns();
-  const auto result = fuser_.add({services::view_of(*map.sample), map.lidar, map.token});
+  const auto result = fuser_.add({map.sample->view(), map.lidar, map.token});
   if (!result) {  // the device may still read the map: it is not released
     ++counters_.backend_failures;
     return fail(result.error());

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "ipc/text.hpp"
-#include "services/common/bus/core_types.hpp"
 #include "services/fusion/fusion_node.hpp"
 #include "services/fusion/missing.hpp"
 
@@ -38,11 +37,12 @@ void FusionNode::publish_layers() {
     log_drops_(spdlog::level::err, "layers are lost: {}", writer.error().message);
     return;
   }
-  if (const auto made = fuser_.make_layers(services::arrays_of(*writer)); !made) return fail(made.error());
+  if (const auto made = fuser_.make_layers(writer->arrays()); !made) return fail(made.error());
   record_costs();
   const ipc::BrickMap& last = last_received();
   ipc::Layers& header = writer->header();
-  services::set_frame(moment.grid, moment.T_odom_base, header);
+  header.grid = moment.grid;
+  header.T_odom_base = record_of(moment.T_odom_base);
   fill_lidars(header);
   header.mono_received_ns = last.mono_received_ns;
   header.suspended_ns = last.suspended_ns;
@@ -97,7 +97,7 @@ void FusionNode::fill_lidars(ipc::Layers& header) const {
     status.columns_seen_fraction = lidar.columns_seen_fraction;
   }
   unknown_.for_each(ipc::monotonic_ns(), [&header](std::string_view name) {
-    if (header.lidar_count == ipc::kMaxLidars) return;  // Health names it all the same
+    if (header.lidar_count == kMaxLidars) return;  // Health names it all the same
     ipc::LidarStatus& status = header.lidars[header.lidar_count++];
     ipc::set_text(status.name, name);
     status.missing = status.unknown = 1;
@@ -112,16 +112,17 @@ void FusionNode::publish_voxels() {
   next_voxels_ns_ = now_ns + period_ns(config_.fusion.voxel_rate_hz);
   const auto shape = fuser_.count_voxels();
   if (!shape) return fail(shape.error());
-  auto writer = bus_.voxels.loan(shape->brick_slots, shape->brick_count, shape->record_count);
+  auto writer = bus_.voxels.loan(*shape);
   if (!writer) {
     ++counters_.voxels_without_chunk;
     log_drops_(spdlog::level::err, "a voxel map is lost: {}", writer.error().message);
     return;
   }
   const LayerMoment moment = fuser_.moment();
-  services::set_frame(moment.grid, moment.T_odom_base, writer->header());
+  writer->header().grid = moment.grid;
+  writer->header().T_odom_base = record_of(moment.T_odom_base);
   writer->header().columns_seen_fraction = 1;
-  if (const auto written = fuser_.write_voxels(services::arrays_of(*writer)); !written)
+  if (const auto written = fuser_.write_voxels(writer->arrays()); !written)
     return fail(written.error());
   bus_.voxels.publish(std::move(*writer), moment.stamp_ns, epoch_);
   ++counters_.voxel_maps_out;

@@ -38,7 +38,7 @@ class UnknownLidars {
   };
 
   const std::vector<services::LidarConfig>& known_;
-  std::array<Heard, ipc::kMaxLidars> heard_{};
+  std::array<Heard, kMaxLidars> heard_{};
 };
 
 }  // namespace gvom::fusion

@@ -19,7 +19,7 @@ class FusionCredit {
     if (ipc::text_of(progress.reader) != "fusion") return;
     if (progress.header.sequence <= newest_progress_) missed_ = published;
     newest_progress_ = progress.header.sequence;
-    for (std::uint32_t i = 0; i < progress.lidar_count && i < ipc::kMaxLidars; ++i)
+    for (std::uint32_t i = 0; i < progress.lidar_count && i < kMaxLidars; ++i)
       if (lidar_ == ipc::text_of(progress.taken[i].lidar)) taken_ = progress.taken[i].sequence;
   }
 

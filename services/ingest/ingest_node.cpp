@@ -5,7 +5,6 @@
 #include <cstdio>
 
 #include "ipc/text.hpp"
-#include "services/common/bus/core_types.hpp"
 #include "services/common/bus/pool_spec.hpp"
 #include "services/common/config_file.hpp"
 #include "services/ingest/loss_words.hpp"
@@ -154,14 +153,15 @@ void IngestNode::fail(const std::string& what) {
 }
 
 bool IngestNode::publish(const Sweep& sweep, const BrickMapShape& shape, std::int64_t begin_ns) {
-  auto writer = bus_.maps.loan(shape.brick_slots, shape.brick_count, shape.record_count);
+  auto writer = bus_.maps.loan(shape);
   if (!writer) {
     ++counters_.without_chunk;
     log_drops_(spdlog::level::err, "a map is lost: {}", writer.error().message);
     return false;
   }
   ipc::BrickMap& header = writer->header();
-  services::set_frame(mapper_.grid(), mapper_.T_odom_base(), header);
+  header.grid = mapper_.grid();
+  header.T_odom_base = record_of(mapper_.T_odom_base());
   const FilterCounts& filter = mapper_.filter_counts();
   header.columns_seen_fraction = static_cast<float>(sweep.columns_seen_fraction);
   header.flags = lossless_ ? ipc::BrickMap::kLossless : 0u;
@@ -176,7 +176,7 @@ bool IngestNode::publish(const Sweep& sweep, const BrickMapShape& shape, std::in
   header.suspended_ns = ipc::suspended_ns();
   header.mono_mapped_ns = begin_ns;
   counters_.wait.record_ns(begin_ns - header.mono_received_ns);
-  if (const auto written = mapper_.write(services::arrays_of(*writer)); !written) {
+  if (const auto written = mapper_.write(writer->arrays()); !written) {
     fail(written.error().what);
     return false;
   }

@@ -1,7 +1,6 @@
 // What an ingest process takes from the odometry.
 #include <spdlog/spdlog.h>
 
-#include "services/common/bus/core_types.hpp"
 #include "services/ingest/ingest_node.hpp"
 
 namespace gvom::ingest {
@@ -12,8 +11,7 @@ void IngestNode::take_odometry() {
     const ipc::Odometry& odometry = **sample;
     const bool end = (odometry.flags & ipc::Odometry::kEndOfStream) != 0;
     if (odometry.header.epoch > odometry_.epoch()) begin_epoch();
-    const StampedPose pose{odometry.header.stamp_ns,
-                           services::pose_of(odometry.position_m, odometry.orientation_xyzw)};
+    const StampedPose pose{odometry.header.stamp_ns, pose_of(odometry.T_odom_base)};
     const Taken taken = odometry_.take({pose, odometry.header.epoch, end}, ipc::monotonic_ns());
     say(taken, odometry.header.sequence);
     if (taken == Taken::old_epoch) continue;

@@ -78,7 +78,7 @@ const Reader* Readers::slowest() const {
 }
 
 std::uint64_t Readers::taken_by_fusion(const std::string& lidar) const {
-  const std::size_t count = std::min<std::size_t>(fusion_.latest.lidar_count, ipc::kMaxLidars);
+  const std::size_t count = std::min<std::size_t>(fusion_.latest.lidar_count, kMaxLidars);
   for (std::size_t i = 0; i < count; ++i) {
     const ipc::Progress::Taken& taken = fusion_.latest.taken[i];
     if (ipc::text_of(taken.lidar) == lidar) return taken.sequence;

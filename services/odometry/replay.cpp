@@ -31,8 +31,7 @@ std::uint64_t now_ns() {
 
 ipc::Odometry message_of(const Pose& pose, std::uint32_t flags) {
   ipc::Odometry message{};
-  std::copy_n(pose.translation_m.data(), 3, message.position_m);
-  std::copy_n(pose.rotation.coeffs().data(), 4, message.orientation_xyzw);  // Eigen keeps x y z w
+  message.T_odom_base = record_of(pose);
   message.flags = flags;
   return message;
 }

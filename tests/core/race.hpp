@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "core/backend.hpp"
-#include "core/layers.hpp"
+#include "core/format/layers.hpp"
 #include "tests/core/scenario.hpp"
 
 namespace gvom::test {

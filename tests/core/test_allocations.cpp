@@ -87,9 +87,14 @@ class Drive {
     const auto shape = mapper_.count(sweep_, odometry_);
     Chunk& chunk = chunks_[steps_ % chunks_.size()];
     failures_ += !mapper_.write(chunk.arrays());
-    const BrickMapView view{
-        mapper_.grid(),         sweep_.stamp_ns,     mapper_.T_odom_base(), *shape,
-        chunk.directory.data(), chunk.lookup.data(), chunk.columns.data(),  chunk.records.data()};
+    const BrickMapView view{mapper_.grid(),
+                            sweep_.stamp_ns,
+                            record_of(mapper_.T_odom_base()),
+                            *shape,
+                            chunk.directory.data(),
+                            chunk.lookup.data(),
+                            chunk.columns.data(),
+                            chunk.records.data()};
     added_ += fuser_.add({view, 0, steps_}).value() == AddResult::added;
     failures_ += !fuser_.make_layers(layers_.arrays());
   }

@@ -54,7 +54,7 @@ bool Drive::step() {
   odometry_.add({sweep_.stamp_ns, pose()});
   const auto shape = mapper_->count(sweep_, odometry_);
   if (!shape) return fail(shape.error().what);
-  BrickMapView view{mapper_->grid(), sweep_.stamp_ns, mapper_->T_odom_base(), {}};
+  BrickMapView view{mapper_->grid(), sweep_.stamp_ns, record_of(mapper_->T_odom_base()), {}};
   const BrickMapArrays chunk = segment_.loan_map(*shape, view);
   if (const auto written = mapper_->write(chunk); !written) return fail(written.error().what);
   const auto result = fuser_->add({view, 0, steps_});

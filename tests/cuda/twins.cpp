@@ -85,7 +85,7 @@ class Twins {
     const auto cuda_shape = cuda.count(arrival.sweep, odometry_);
     REQUIRE(shape.has_value() == cuda_shape.has_value());
     if (!shape) return;
-    BrickMapView view{cpu.grid(), arrival.sweep.stamp_ns, cpu.T_odom_base(), {}};
+    BrickMapView view{cpu.grid(), arrival.sweep.stamp_ns, record_of(cpu.T_odom_base()), {}};
     REQUIRE(cpu.write(segment_.loan_map(*shape, view)));
     BrickMapStorage storage;
     REQUIRE(cuda.write(storage.resize(*cuda_shape)));

@@ -158,8 +158,8 @@ class Poses {
  private:
   void send(double x_m, std::int64_t drive_ns) {
     ipc::Odometry odometry{};
-    odometry.position_m[0] = x_m;
-    odometry.orientation_xyzw[3] = 1;
+    odometry.T_odom_base.position_m[0] = x_m;
+    odometry.T_odom_base.orientation_xyzw[3] = 1;
     EXPECT(client_.publish_odometry(odometry, kDriveBegin_ns + drive_ns, 1));
   }
 
@@ -172,8 +172,10 @@ double farthest_hit_m(const ipc::BrickMapSample& map) {
   double farthest_m = 0;
   for (const Voxel& voxel : observed_voxels(map)) {
     if (voxel.hits == 0) continue;
-    const double x_m = (voxel.x + 0.5) * map.header().resolution_m[0] - map.header().base_position_m[0];
-    const double y_m = (voxel.y + 0.5) * map.header().resolution_m[1] - map.header().base_position_m[1];
+    const double x_m =
+        (voxel.x + 0.5) * map.header().grid.resolution_m[0] - map.header().T_odom_base.position_m[0];
+    const double y_m =
+        (voxel.y + 0.5) * map.header().grid.resolution_m[1] - map.header().T_odom_base.position_m[1];
     farthest_m = std::max(farthest_m, std::hypot(x_m, y_m));
   }
   return farthest_m;

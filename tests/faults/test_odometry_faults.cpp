@@ -59,7 +59,7 @@ TEST_CASE("after a jump the map has nothing from before it") {
         [&] { lab.board->odometry = there ? OdometryMode::moved : OdometryMode::well; }, [] {});
     CHECK(eventually([&] { return lab.observer->counter("gvom-fusion", "odometry_jumps") == jumps; }));
     CHECK(lab.layers_flow());
-    CHECK(lab.observer->newest_layers().base_position_m[0] == (there ? 5 : 0));
+    CHECK(lab.observer->newest_layers().T_odom_base.position_m[0] == (there ? 5 : 0));
     CHECK(lab.board->wrong_maps == 0);
   }
   lab.stop();

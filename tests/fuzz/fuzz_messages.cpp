@@ -8,7 +8,6 @@
 #include "ipc/layers.hpp"
 #include "ipc/text.hpp"
 #include "ipc/topic.hpp"
-#include "services/common/bus/core_types.hpp"
 #include "services/ingest/fusion_credit.hpp"
 #include "tests/fuzz/input.hpp"
 
@@ -24,7 +23,7 @@ using ChunkMemory = std::unique_ptr<std::byte, decltype(&std::free)>;
 
 ChunkMemory chunk_of(ingest::Bytes bytes) {
   void* memory = nullptr;
-  require(::posix_memalign(&memory, ipc::kArrayAlignment, std::max<std::size_t>(bytes.size, 1)) == 0,
+  require(::posix_memalign(&memory, kArrayAlignment, std::max<std::size_t>(bytes.size, 1)) == 0,
           "there is memory");
   if (bytes.size > 0) std::memcpy(memory, bytes.data, bytes.size);
   return {static_cast<std::byte*>(memory), &std::free};
@@ -67,7 +66,7 @@ void fuse(const ipc::BrickMapSample& map) {
 double read_map(const std::byte* message) {
   const ipc::BrickMapSample map(ipc::Chunk(nullptr, message));
   double sum = sum_of(map.directory()) + sum_of(map.lookup()) + sum_of(map.columns());
-  for (const ipc::VoxelRecord& record : map.records()) sum += record.hits + record.passes;
+  for (const VoxelRecord& record : map.records()) sum += record.hits + record.passes;
   if (map.validate_deep()) fuse(map);
   return sum;
 }
@@ -75,14 +74,13 @@ double read_map(const std::byte* message) {
 double read_layers(const std::byte* message) {
   const ipc::LayersSample layers(ipc::Chunk(nullptr, message));
   double sum = static_cast<double>(layers.missing_lidars().size());
-  for (int i = 0; i < ipc::kLayers; ++i) {
-    const auto id = static_cast<ipc::LayerId>(i);
+  for (int i = 0; i < kLayers; ++i) {
+    const auto id = static_cast<LayerId>(i);
     sum += sum_of(layers.layer_u8(id));
     for (const float value : layers.layer_f(id)) sum += std::isnan(value) ? 0 : 1;
   }
-  const auto& base = layers.header().base_position_m;
-  if (const auto index = layers.index_of(base[0], base[1]))
-    sum += layers.layer_u8(ipc::LayerId::cost)[*index];
+  const auto& base = layers.header().T_odom_base.position_m;
+  if (const auto index = layers.index_of(base[0], base[1])) sum += layers.layer_u8(LayerId::cost)[*index];
   (void)layers.age();
   return sum;
 }
@@ -92,7 +90,7 @@ double read_odometry(const std::byte* message) {
   OdometryBuffer buffer(4);
   const std::int64_t stamp_ns = odometry.header.stamp_ns;
   buffer.add({stamp_ns - 100, Pose{}});
-  buffer.add({stamp_ns, services::pose_of(odometry.position_m, odometry.orientation_xyzw)});
+  buffer.add({stamp_ns, pose_of(odometry.T_odom_base)});
   const auto pose = buffer.at(stamp_ns - 50);
   return pose ? pose->translation_m.norm() : 0;
 }

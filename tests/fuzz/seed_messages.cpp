@@ -37,35 +37,34 @@ void add(Seeds& seeds, std::uint8_t number, const ByteVector& message) {
   seeds.add("messages", input);
 }
 
-void set_frame(std::int32_t (&size)[3], double (&resolution_m)[3], double (&orientation_xyzw)[4]) {
-  for (int a = 0; a < 3; ++a) {
-    size[a] = kSize;
-    resolution_m[a] = 0.4;
-  }
-  orientation_xyzw[3] = 1;
+template <class Message>
+void set_frame(Message& message) {
+  message.grid.size.fill(kSize);
+  message.grid.resolution_m.fill(0.4);
+  message.T_odom_base.orientation_xyzw[3] = 1;
 }
 
 /// One brick: a voxel that was hit, one that was passed.
 ByteVector map_message(const ipc::Topic& topic) {
-  const auto layout = ipc::brick_map_layout(1, 1, 1);
+  const auto layout = ipc::brick_map_layout({1, 1, 1});
   ByteVector message = blank(topic, layout.bytes);
   auto& map = as<ipc::BrickMap>(message);
-  set_frame(map.size_voxels, map.resolution_m, map.base_orientation_xyzw);
-  for (std::int32_t& origin : map.origin_voxels) origin = -kSize / 2 / 8 * 8 - 8;
-  map.brick_slots = map.brick_count = map.record_count = 1;
+  set_frame(map);
+  for (std::int32_t& origin : map.grid.origin) origin = -kSize / 2 / 8 * 8 - 8;
+  map.shape = {1, 1, 1};
   auto* lookup = reinterpret_cast<std::int32_t*>(message.data() + layout.lookup);
-  std::fill_n(lookup, ipc::kBrickVoxels, -1);
+  std::fill_n(lookup, kBrickCells, -1);
   lookup[3] = 0;
   lookup[4] = -2;
   *reinterpret_cast<std::uint64_t*>(message.data() + layout.columns) = 1;
-  *reinterpret_cast<ipc::VoxelRecord*>(message.data() + layout.records) = {2, 1, 0.5F};
+  *reinterpret_cast<VoxelRecord*>(message.data() + layout.records) = {2, 1, 0.5F};
   return message;
 }
 
 ByteVector layers_message() {
   ByteVector message = blank(ipc::layers_topic(), ipc::layers_bytes(kSize));
   auto& layers = as<ipc::Layers>(message);
-  set_frame(layers.size_voxels, layers.resolution_m, layers.base_orientation_xyzw);
+  set_frame(layers);
   layers.lidar_count = 1;
   layers.lidars[0].missing = 1;
   ipc::set_text(layers.lidars[0].name, "front");
@@ -76,7 +75,7 @@ ByteVector layers_message() {
 
 void add_messages(Seeds& seeds) {
   ByteVector odometry = blank(ipc::topic_of<ipc::Odometry>(), sizeof(ipc::Odometry));
-  as<ipc::Odometry>(odometry).orientation_xyzw[3] = 1;
+  as<ipc::Odometry>(odometry).T_odom_base.orientation_xyzw[3] = 1;
   add(seeds, 0, odometry);
 
   ByteVector progress = blank(ipc::topic_of<ipc::Progress>(), sizeof(ipc::Progress));

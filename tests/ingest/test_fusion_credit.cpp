@@ -37,7 +37,7 @@ TEST_CASE("fusion has room for a few maps more than it has taken, or than were t
 TEST_CASE("names without an end are read no further than their field") {
   FusionCredit credit("front");
   const auto progress = progress_of(1, 9);
-  progress->lidar_count = ipc::kMaxLidars;
+  progress->lidar_count = kMaxLidars;
   for (auto& taken : progress->taken) std::memset(&taken, 'x', sizeof taken);
   credit.take(*progress, 4);
   CHECK_FALSE(credit.has_room(4));

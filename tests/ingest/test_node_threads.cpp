@@ -45,7 +45,7 @@ void odometry_life(const Step& stop) {
   auto runtime = ipc::Runtime::connect("odometry", kPatience).value();
   auto publisher = ipc::Publisher<ipc::Odometry>::open(runtime).value();
   ipc::Odometry pose{};
-  pose.orientation_xyzw[3] = 1;
+  pose.T_odom_base.orientation_xyzw[3] = 1;
   while (!stop.reached(1)) {
     EXPECT(publisher.publish(pose, ipc::monotonic_ns(), 1));
     std::this_thread::sleep_for(1ms);

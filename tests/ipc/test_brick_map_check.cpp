@@ -6,6 +6,7 @@
 
 #include "tests/ipc/two_bricks.hpp"
 
+using namespace gvom;
 using namespace gvom::ipc;
 using gvom::ipc::test::TwoBricks;
 using Part = MapFault::Part;

@@ -8,6 +8,7 @@
 #include "ipc/fixed.hpp"
 #include "tests/ipc/processes.hpp"
 
+using namespace gvom;
 using namespace gvom::ipc;
 using namespace gvom::ipc::test;
 

@@ -10,6 +10,7 @@
 #include "ipc/waiter.hpp"
 #include "tests/ipc/processes.hpp"
 
+using namespace gvom;
 using namespace gvom::ipc;
 using namespace gvom::ipc::test;
 

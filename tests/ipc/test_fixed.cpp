@@ -6,6 +6,7 @@
 #include "ipc/waiter.hpp"
 #include "tests/ipc/processes.hpp"
 
+using namespace gvom;
 using namespace gvom::ipc;
 using namespace gvom::ipc::test;
 
@@ -13,8 +14,8 @@ namespace {
 
 Odometry odometry_at(double x_m) {
   Odometry odometry{};
-  odometry.position_m[0] = x_m;
-  odometry.orientation_xyzw[3] = 1.0;
+  odometry.T_odom_base.position_m[0] = x_m;
+  odometry.T_odom_base.orientation_xyzw[3] = 1.0;
   return odometry;
 }
 
@@ -56,7 +57,7 @@ TEST_CASE("a message arrives in another process as it was sent") {
     const auto first = take_within(subscriber);
     const auto second = take_within(subscriber);
     EXPECT(first && second);
-    EXPECT((*first)->position_m[0] == 12.5 && (*second)->position_m[0] == 13.5);
+    EXPECT((*first)->T_odom_base.position_m[0] == 12.5 && (*second)->T_odom_base.position_m[0] == 13.5);
     EXPECT((*first)->header.magic == kMagic && (*first)->header.version == Odometry::kVersion);
     EXPECT((*first)->header.size == sizeof(Odometry) && (*first)->header.epoch == 3);
     EXPECT((*first)->header.sequence == 1 && (*second)->header.sequence == 2);
@@ -171,7 +172,7 @@ TEST_CASE("a publisher killed and started again under its name is heard at once"
     auto subscriber = Subscriber<Odometry>::open(runtime).value();
     for (int life = 1; life <= 3; ++life) {
       const auto sample = take_within(subscriber);
-      EXPECT(sample && (*sample)->position_m[0] == life);
+      EXPECT(sample && (*sample)->T_odom_base.position_m[0] == life);
       step.reach(life);
     }
     EXPECT(subscriber.counters().publishers == 3 && subscriber.counters().lost == 0);

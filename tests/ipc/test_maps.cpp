@@ -10,6 +10,7 @@
 #include "ipc/text.hpp"
 #include "tests/ipc/processes.hpp"
 
+using namespace gvom;
 using namespace gvom::ipc;
 using namespace gvom::ipc::test;
 
@@ -19,13 +20,13 @@ constexpr std::uint32_t kSlots = 256;
 constexpr std::uint64_t kColumns[2] = {~std::uint64_t{0}, 0x7ff};  // 512 and 86 voxels were observed
 
 void fill_grid(BrickMap& map) {
-  map.size_voxels[0] = map.size_voxels[1] = 64;
-  map.size_voxels[2] = 32;
+  map.grid.size[0] = map.grid.size[1] = 64;
+  map.grid.size[2] = 32;
 }
 
 /// Two bricks, three records.
 BrickMapWriter write_map(BrickMapPublisher& publisher) {
-  auto map = publisher.loan(kSlots, 2, 3).value();
+  auto map = publisher.loan({kSlots, 2, 3}).value();
   fill_grid(map.header());
   for (auto& entry : map.directory()) entry = -1;
   map.directory()[17] = 0;
@@ -49,9 +50,9 @@ LayersWriter write_layers(LayersPublisher& publisher, float height_m) {
   std::uint8_t cost = 0;
   for (auto& value : layers.layer_u8(LayerId::cost)) value = cost++;
   Layers& header = layers.header();
-  header.resolution_m[0] = header.resolution_m[1] = header.resolution_m[2] = 0.4;
-  header.origin_voxels[0] = -32;
-  header.origin_voxels[1] = 8;
+  header.grid.resolution_m[0] = header.grid.resolution_m[1] = header.grid.resolution_m[2] = 0.4;
+  header.grid.origin[0] = -32;
+  header.grid.origin[1] = 8;
   header.lidar_count = 2;
   set_text(header.lidars[0].name, "front");
   set_text(header.lidars[1].name, "rear");
@@ -79,7 +80,7 @@ TEST_CASE("a brick map is read where it was written") {
   Child ingest([] {
     auto runtime = Runtime::connect("ingest", kPatience).value();
     auto publisher = open_map_publisher(runtime, "top");
-    for (int i = 0; i < 100; ++i) EXPECT(publisher.loan(kSlots, 2, 3));  // abandoned: all come back
+    for (int i = 0; i < 100; ++i) EXPECT(publisher.loan({kSlots, 2, 3}));  // abandoned: all come back
     EXPECT(eventually([&] { return publisher.has_subscribers(); }));
     publisher.publish(write_map(publisher), 123, 4);
   });
@@ -120,10 +121,10 @@ TEST_CASE("a map that contradicts itself is refused") {
                        return subscriber.take();
                      };
                      EXPECT(send([](auto&) {}));
-                     EXPECT(!send([](auto& map) { map.header().record_count = 4; }));
-                     EXPECT(!send([](auto& map) { map.header().brick_count = 257; }));
-                     EXPECT(!send([](auto& map) { map.header().brick_slots = 255; }));
-                     EXPECT(!send([](auto& map) { map.header().size_voxels[2] = 33; }));
+                     EXPECT(!send([](auto& map) { map.header().shape.record_count = 4; }));
+                     EXPECT(!send([](auto& map) { map.header().shape.brick_count = 257; }));
+                     EXPECT(!send([](auto& map) { map.header().shape.brick_slots = 255; }));
+                     EXPECT(!send([](auto& map) { map.header().grid.size[2] = 33; }));
                      EXPECT(subscriber.counters().refused_size == 4);
                      EXPECT(!send([](auto& map) { map.directory()[0] = 2; })->validate_deep());
                    }).wait();
@@ -136,28 +137,28 @@ TEST_CASE("loans that cannot be are errors, not the end") {
   Child process([] {
     auto runtime = Runtime::connect("both", kPatience).value();
     auto publisher = open_map_publisher(runtime, "top");
-    EXPECT(publisher.loan(kSlots, 256, 20000).error().kind == ErrorKind::too_large);
+    EXPECT(publisher.loan({kSlots, 256, 20000}).error().kind == ErrorKind::too_large);
     auto boaster = BrickMapPublisher::buffer_map(runtime, "top", 1u << 30).value();
-    EXPECT(boaster.loan(kSlots, 1, 1).error().kind == ErrorKind::too_large);
+    EXPECT(boaster.loan({kSlots, 1, 1}).error().kind == ErrorKind::too_large);
     EXPECT(BrickMapPublisher::buffer_map(runtime, "Top", 1).error().kind == ErrorKind::bad_name);
 
     std::deque<BrickMapWriter> loans;
-    for (int i = 0; i < 8; ++i) loans.push_back(publisher.loan(kSlots, 1, 1).value());
-    EXPECT(publisher.loan(kSlots, 1, 1).error().kind == ErrorKind::exhausted);
+    for (int i = 0; i < 8; ++i) loans.push_back(publisher.loan({kSlots, 1, 1}).value());
+    EXPECT(publisher.loan({kSlots, 1, 1}).error().kind == ErrorKind::exhausted);
     loans.clear();
 
     auto subscriber = BrickMapSubscriber::buffer_map(runtime, "top").value();
     EXPECT(eventually([&] { return publisher.has_subscribers(); }));
     std::deque<BrickMapSample> held;
-    while (auto map = publisher.loan(kSlots, 0, 0)) {
+    while (auto map = publisher.loan({kSlots, 0, 0})) {
       fill_grid(map->header());
       publisher.publish(std::move(*map), 0, 0);
       held.push_back(*subscriber.take());
       EXPECT(held.size() < 100);
     }
-    EXPECT(publisher.loan(kSlots, 1, 1).error().kind == ErrorKind::exhausted);
+    EXPECT(publisher.loan({kSlots, 1, 1}).error().kind == ErrorKind::exhausted);
     held.pop_front();
-    EXPECT(publisher.loan(kSlots, 1, 1));
+    EXPECT(publisher.loan({kSlots, 1, 1}));
   });
   CHECK(process.wait() == 0);
 }
@@ -180,7 +181,7 @@ TEST_CASE("the pools suffice for full queues and full windows of the largest map
     for (int sweep = 0; sweep < 200; ++sweep) {
       for (Lidar& lidar : lidars) {
         EXPECT(eventually([&] { return lidar.publisher.has_subscribers(); }));
-        auto map = lidar.publisher.loan(kSlots, 256, 10000);
+        auto map = lidar.publisher.loan({kSlots, 256, 10000});
         EXPECT(map);
         fill_grid(map->header());
         lidar.publisher.publish(std::move(*map), sweep, 0);
@@ -202,7 +203,7 @@ TEST_CASE("a reader killed with its hands full takes nothing to the grave") {
     auto runtime = Runtime::connect("ingest", kPatience).value();
     auto publisher = open_map_publisher(runtime, "top");
     while (!life.reached(20)) {
-      auto map = publisher.loan(kSlots, 0, 0);
+      auto map = publisher.loan({kSlots, 0, 0});
       EXPECT(map);
       fill_grid(map->header());
       publisher.publish(std::move(*map), 0, 0);

@@ -9,6 +9,7 @@
 #include "ipc/topic.hpp"
 #include "tests/ipc/two_bricks.hpp"
 
+using namespace gvom;
 using namespace gvom::ipc;
 using gvom::ipc::test::TwoBricks;
 
@@ -92,22 +93,21 @@ TEST_CASE("so are times of this machine's clock, of a map and of layers") {
   auto& layers = *new (memory.data()) Layers{};
   layers.header = {kMagic, static_cast<std::uint16_t>(Layers::kType), Layers::kVersion, memory.size(), 1, 0,
                    0};
-  for (auto& size : layers.size_voxels) size = kSize;
+  for (auto& size : layers.grid.size) size = kSize;
   CHECK_FALSE(check_message(layers_topic(), memory.data(), memory.size()));
   layers.mono_published_ns = kLeast_ns;
   CHECK(check_message(layers_topic(), memory.data(), memory.size())->why == why);
 }
 
 TEST_CASE("a grid that begins where none can is refused") {
-  CHECK(refusal_of([](BrickMap& map) { map.origin_voxels[0] = -(1 << 30); }).empty());
-  CHECK(refusal_of([](BrickMap& map) { map.origin_voxels[1] = 4; }) ==
-        "it claims to begin at voxel (0, 4, 0)");
-  CHECK(refusal_of([](BrickMap& map) { map.origin_voxels[2] = 2147483640; }) ==
+  CHECK(refusal_of([](BrickMap& map) { map.grid.origin[0] = -(1 << 30); }).empty());
+  CHECK(refusal_of([](BrickMap& map) { map.grid.origin[1] = 4; }) == "it claims to begin at voxel (0, 4, 0)");
+  CHECK(refusal_of([](BrickMap& map) { map.grid.origin[2] = 2147483640; }) ==
         "it claims to begin at voxel (0, 0, 2147483640)");
 }
 
 TEST_CASE("a pose that is not finite, or not on Earth, is refused") {
-  CHECK(refusal_of([](BrickMap& map) { map.base_position_m[1] = kNan; }) == kNoPose);
-  CHECK(refusal_of([](BrickMap& map) { map.base_orientation_xyzw[0] = INFINITY; }) == kNoPose);
-  CHECK(refusal_of([](BrickMap& map) { map.base_position_m[2] = 1e300; }) == kNoPose);
+  CHECK(refusal_of([](BrickMap& map) { map.T_odom_base.position_m[1] = kNan; }) == kNoPose);
+  CHECK(refusal_of([](BrickMap& map) { map.T_odom_base.orientation_xyzw[0] = INFINITY; }) == kNoPose);
+  CHECK(refusal_of([](BrickMap& map) { map.T_odom_base.position_m[2] = 1e300; }) == kNoPose);
 }

@@ -6,6 +6,7 @@
 #include "ipc/text.hpp"
 #include "ipc/topic.hpp"
 
+using namespace gvom;
 using namespace gvom::ipc;
 
 TEST_CASE("names that would abort in iceoryx are refused before it sees them") {

@@ -6,6 +6,7 @@
 #include "ipc/messages.hpp"
 #include "ipc/pools.hpp"
 
+using namespace gvom;
 using namespace gvom::ipc;
 
 namespace {
@@ -23,7 +24,7 @@ Pool pool_for(const PoolPlan& plan, std::size_t bytes) {
 }  // namespace
 
 TEST_CASE("arrays of a brick map follow each other, aligned") {
-  const BrickMapLayout layout = brick_map_layout(7, 3, 5);
+  const BrickMapLayout layout = brick_map_layout({7, 3, 5});
   CHECK(layout.directory == up_to_64(sizeof(BrickMap)));
   CHECK(layout.lookup == layout.directory + 64);  // 7 * 4 bytes
   CHECK(layout.columns == layout.lookup + 3 * 2048);
@@ -51,7 +52,7 @@ TEST_CASE("the paper's grid") {
 TEST_CASE("records are never more than voxels") {
   PoolSpec spec;
   spec.size_xy = spec.size_z = 8;
-  CHECK(buffer_map_capacity(spec) == brick_map_bytes(1, 1, 512));
+  CHECK(buffer_map_capacity(spec) == brick_map_bytes({1, 1, 512}));
 }
 
 TEST_CASE("each topic has the chunks that its queues and holders can keep") {

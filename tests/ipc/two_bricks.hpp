@@ -14,24 +14,22 @@ namespace gvom::ipc::test {
 class TwoBricks {
  public:
   explicit TwoBricks(std::uint32_t brick_count = 2, std::uint32_t record_count = 2)
-      : layout_(brick_map_layout(4, brick_count, record_count)), memory_(layout_.bytes / sizeof(Line) + 1) {
+      : layout_(brick_map_layout({4, brick_count, record_count})), memory_(layout_.bytes / sizeof(Line) + 1) {
     BrickMap& map = header();
     map.header.magic = kMagic;
     map.header.type = static_cast<std::uint16_t>(MessageType::buffer_map);
     map.header.version = BrickMap::kVersion;
     map.header.size = layout_.bytes;
-    map.size_voxels[0] = map.size_voxels[1] = 16;
-    map.size_voxels[2] = 8;
-    map.base_orientation_xyzw[3] = 1;
-    map.brick_slots = 4;
-    map.brick_count = brick_count;
-    map.record_count = record_count;
-    std::fill_n(directory(), map.brick_slots, -1);
-    std::fill_n(lookup(), brick_count * kBrickVoxels, -1);
+    map.grid.size[0] = map.grid.size[1] = 16;
+    map.grid.size[2] = 8;
+    map.T_odom_base.orientation_xyzw[3] = 1;
+    map.shape = {4, brick_count, record_count};
+    std::fill_n(directory(), map.shape.brick_slots, -1);
+    std::fill_n(lookup(), brick_count * kBrickCells, -1);
     for (std::uint32_t brick = 0; brick < brick_count; ++brick) {
       directory()[2 * brick + 1] = static_cast<std::int32_t>(brick);
-      lookup()[brick * kBrickVoxels + 3] = static_cast<std::int32_t>(brick);
-      lookup()[brick * kBrickVoxels + 4] = -2;
+      lookup()[brick * kBrickCells + 3] = static_cast<std::int32_t>(brick);
+      lookup()[brick * kBrickCells + 4] = -2;
       columns()[brick] = 1;
       records()[brick] = {1, 0, 0.5F};
     }

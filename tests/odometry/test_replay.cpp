@@ -10,6 +10,7 @@
 #include "ipc/runtime.hpp"
 #include "tests/ipc/processes.hpp"
 
+using namespace gvom;
 using namespace gvom::ipc;
 using namespace gvom::ipc::test;
 using Catch::Contains;
@@ -114,11 +115,11 @@ std::function<void()> lossless_ingest(const std::string& name, const Step& done,
       EXPECT((*odometry)->header.sequence == last + 1);
       EXPECT((*odometry)->flags & Odometry::kLossless);
       ended = ((*odometry)->flags & Odometry::kEndOfStream) != 0;
-      EXPECT(!ended || (*odometry)->position_m[0] == last_x_m);
+      EXPECT(!ended || (*odometry)->T_odom_base.position_m[0] == last_x_m);
       EXPECT(ended == ((*odometry)->header.sequence == poses + 1));
       last = (*odometry)->header.sequence;
       epoch = (*odometry)->header.epoch;
-      last_x_m = (*odometry)->position_m[0];
+      last_x_m = (*odometry)->T_odom_base.position_m[0];
       std::this_thread::sleep_for(pause);
     }
     EXPECT(ended);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/config.hpp"
-#include "core/layers.hpp"
+#include "core/format/layers.hpp"
 #include "tests/oracle/fusion.hpp"
 
 namespace gvom::oracle {

@@ -21,10 +21,10 @@ namespace {
 
 Voxel voxel_of(const ipc::BrickMapSample& map, std::size_t slot, std::int32_t brick, std::size_t cell) {
   const ipc::BrickMap& header = map.header();
-  const auto per_row = static_cast<std::size_t>(header.size_voxels[0] / 8);
-  const auto per_floor = per_row * static_cast<std::size_t>(header.size_voxels[1] / 8);
+  const auto per_row = static_cast<std::size_t>(header.grid.size[0] / 8);
+  const auto per_floor = per_row * static_cast<std::size_t>(header.grid.size[1] / 8);
   const auto at = [&](int axis, std::size_t in_bricks, std::size_t in_brick) {
-    return header.origin_voxels[axis] + static_cast<std::int32_t>(in_bricks * 8 + in_brick);
+    return header.grid.origin[axis] + static_cast<std::int32_t>(in_bricks * 8 + in_brick);
   };
   Voxel voxel{at(0, slot % per_row, cell / 64),
               at(1, slot % per_floor / per_row, cell / 8 % 8),
@@ -36,7 +36,7 @@ Voxel voxel_of(const ipc::BrickMapSample& map, std::size_t slot, std::int32_t br
   if (value < 0) {
     voxel.passes = static_cast<std::uint32_t>(-1 - value);
   } else {
-    const ipc::VoxelRecord& record = map.records()[static_cast<std::size_t>(value)];
+    const VoxelRecord& record = map.records()[static_cast<std::size_t>(value)];
     voxel.hits = record.hits;
     voxel.passes = record.passes;
     voxel.min_height_m = record.min_height_m;
@@ -57,7 +57,7 @@ void save(const std::vector<Voxel>& voxels, const std::string& path) {
 
 std::vector<Voxel> observed_voxels(const ipc::BrickMapSample& map) {
   std::vector<Voxel> voxels;
-  for (std::size_t slot = 0; slot < map.header().brick_slots; ++slot) {
+  for (std::size_t slot = 0; slot < map.header().shape.brick_slots; ++slot) {
     const std::int32_t brick = map.directory()[slot];
     for (std::size_t cell = 0; brick >= 0 && cell < 512; ++cell) {
       const Voxel voxel = voxel_of(map, slot, brick, cell);

@@ -57,7 +57,7 @@ Claim lie_of(int number, const gvom::ipc::MessageHeader& header) {
 
 /// Makes the map lead nowhere, in a way that the counter of this index counts.
 void spoil(const BrickMapWriter& map, std::size_t counter) {
-  const auto brick_count = static_cast<std::int32_t>(map.header().brick_count);
+  const auto brick_count = static_cast<std::int32_t>(map.header().shape.brick_count);
   switch (counter) {
     case 0:
       for (auto& brick : map.directory()) brick = brick < 0 ? brick : brick_count + 1'000'000;
@@ -75,7 +75,7 @@ void spoil(const BrickMapWriter& map, std::size_t counter) {
 
 BrickMapWriter copy_of(const BrickMapSample& map, BrickMapPublisher& publisher) {
   const gvom::ipc::BrickMap& header = map.header();
-  auto copy = publisher.loan(header.brick_slots, header.brick_count, header.record_count);
+  auto copy = publisher.loan(header.shape);
   EXPECT(copy);
   copy->header() = header;
   gvom::ipc::set_text(copy->header().lidar, "rear");

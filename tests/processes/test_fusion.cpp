@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "core/grid.hpp"
 #include "ipc/brick_map.hpp"
 #include "ipc/freshness.hpp"
 #include "ipc/text.hpp"
@@ -40,15 +41,11 @@ class EmptyMaps {
   void publish(int number) {
     const auto& size = config_.mapper.map;
     const auto slots = static_cast<std::uint32_t>(size.size_xy * size.size_xy * size.size_z / 512);
-    auto map = maps_.loan(slots, 0, 0).value();
+    auto map = maps_.loan({slots, 0, 0}).value();
     std::fill(map.directory().begin(), map.directory().end(), -1);
     ipc::BrickMap& header = map.header();
-    for (int axis = 0; axis < 3; ++axis) {
-      header.size_voxels[axis] = axis < 2 ? size.size_xy : size.size_z;
-      header.origin_voxels[axis] = -header.size_voxels[axis] / 2;
-      header.resolution_m[axis] = axis < 2 ? size.resolution_xy_m : size.resolution_z_m;
-    }
-    header.base_orientation_xyzw[3] = 1;
+    header.grid = grid_around(size, Eigen::Vector3d::Zero());
+    header.T_odom_base.orientation_xyzw[3] = 1;
     header.columns_seen_fraction = 0.75F;
     header.mono_received_ns = ipc::monotonic_ns();
     header.suspended_ns = ipc::suspended_ns();

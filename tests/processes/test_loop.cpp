@@ -8,6 +8,7 @@
 #include "tests/processes/recordings.hpp"
 #include "tests/tools/temporary_folder.hpp"
 
+using namespace gvom;
 using namespace gvom::ipc;
 using namespace gvom::ipc::test;
 using namespace gvom::test;
@@ -29,8 +30,10 @@ struct Content {
 
 Content content_of(const LayersSample& sample) {
   const Layers& header = sample.header();
-  Content content{
-      header.header.stamp_ns, header.maps_in_window, {header.origin_voxels, header.origin_voxels + 3}, {}};
+  Content content{header.header.stamp_ns,
+                  header.maps_in_window,
+                  {header.grid.origin.begin(), header.grid.origin.end()},
+                  {}};
   const auto append = [&content](const auto& span) {
     const auto* bytes = reinterpret_cast<const std::byte*>(span.data());
     content.arrays.insert(content.arrays.end(), bytes, bytes + span.size() * sizeof(*span.data()));

@@ -26,15 +26,15 @@ namespace {
   const auto& size = config.mapper.map;
   const auto slots = static_cast<std::uint32_t>(size.size_xy * size.size_xy * size.size_z / 512);
   for (std::int64_t stamp_ns = 1'000'000'000;; stamp_ns += 1'000'000) {
-    auto map = maps.loan(slots, 0, 0).value();
+    auto map = maps.loan({slots, 0, 0}).value();
     std::fill(map.directory().begin(), map.directory().end(), -1);
     ipc::BrickMap& header = map.header();
     for (int axis = 0; axis < 3; ++axis) {
-      header.size_voxels[axis] = axis < 2 ? size.size_xy : size.size_z;
-      header.origin_voxels[axis] = -header.size_voxels[axis] / 2;
-      header.resolution_m[axis] = axis < 2 ? size.resolution_xy_m : size.resolution_z_m;
+      header.grid.size[axis] = axis < 2 ? size.size_xy : size.size_z;
+      header.grid.origin[axis] = -header.grid.size[axis] / 2;
+      header.grid.resolution_m[axis] = axis < 2 ? size.resolution_xy_m : size.resolution_z_m;
     }
-    header.base_orientation_xyzw[3] = 1;
+    header.T_odom_base.orientation_xyzw[3] = 1;
     header.columns_seen_fraction = 1;
     header.mono_received_ns = ipc::monotonic_ns();
     maps.publish(std::move(map), stamp_ns, 1);

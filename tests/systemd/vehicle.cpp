@@ -104,7 +104,7 @@ class Planner {
   ExitCode drive(services::Lifecycle& lifecycle) {
     for (auto next = steady_clock::now(); lifecycle.sleep_until(next); next += kPosePeriod) {
       ipc::Odometry odometry{};
-      odometry.orientation_xyzw[3] = 1;
+      odometry.T_odom_base.orientation_xyzw[3] = 1;
       if (!client_.publish_odometry(odometry, ipc::monotonic_ns(), 1)) return ExitCode::internal;
       const auto layers = client_.newest_layers(0ms);
       if (layers) look_at(layers->header());

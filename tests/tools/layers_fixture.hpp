@@ -18,22 +18,22 @@ class FlatWorld {
 
   FlatWorld() {
     const float nan = std::numeric_limits<float>::quiet_NaN();
-    floats.assign(ipc::kFloatLayers, std::vector<float>(kSize * kSize, nan));
+    floats.assign(kFloatLayers, std::vector<float>(kSize * kSize, nan));
     bytes.assign(3, std::vector<std::uint8_t>(kSize * kSize, 0));
     for (int y = 0; y < kSize; ++y)
       for (int x = 0; x < kSize; ++x) fill_column(x, y, y < 24);
   }
 
-  std::vector<float>& layer_f(ipc::LayerId id) { return floats[static_cast<std::size_t>(id)]; }
-  std::vector<std::uint8_t>& layer_u8(ipc::LayerId id) {
-    return bytes[static_cast<std::size_t>(id) - ipc::kFloatLayers];
+  std::vector<float>& layer_f(LayerId id) { return floats[static_cast<std::size_t>(id)]; }
+  std::vector<std::uint8_t>& layer_u8(LayerId id) {
+    return bytes[static_cast<std::size_t>(id) - kFloatLayers];
   }
   static std::size_t at(int x, int y) { return static_cast<std::size_t>(y * kSize + x); }
 
   void make_hard(int x, int y) {
-    layer_f(ipc::LayerId::obstacle_density)[at(x, y)] = 1.0F;
-    layer_u8(ipc::LayerId::flags)[at(x, y)] = ipc::kHard;
-    layer_u8(ipc::LayerId::cost)[at(x, y)] = 254;
+    layer_f(LayerId::obstacle_density)[at(x, y)] = 1.0F;
+    layer_u8(LayerId::flags)[at(x, y)] = kHard;
+    layer_u8(LayerId::cost)[at(x, y)] = 254;
   }
 
   /// Valid while this lives.
@@ -60,7 +60,6 @@ class FlatWorld {
 
  private:
   void fill_column(int x, int y, bool seen) {
-    using ipc::LayerId;
     layer_u8(LayerId::cost)[at(x, y)] = seen ? 0 : 255;
     layer_u8(LayerId::visibility)[at(x, y)] = seen ? 3 : 0;
     if (!seen) return;

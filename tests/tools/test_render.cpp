@@ -13,7 +13,7 @@
 #include "tools/snapshot/render.hpp"
 
 using namespace gvom::snapshot;
-using gvom::ipc::LayerId;
+using gvom::LayerId;
 using gvom::test::FlatWorld;
 using gvom::test::TemporaryFolder;
 
@@ -98,7 +98,7 @@ TEST_CASE("a hard column is red at its place, and only there") {
 
 TEST_CASE("unknown is the neutral colour in every layer") {
   const FlatWorld world;
-  for (int layer = 0; layer < gvom::ipc::kLayers; ++layer) {
+  for (int layer = 0; layer < gvom::kLayers; ++layer) {
     INFO(kLayerNames[static_cast<std::size_t>(layer)]);
     const LayerPng picture(world, static_cast<LayerId>(layer));
     CHECK(picture.column(3, 30) == kUnknown);

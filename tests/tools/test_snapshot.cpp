@@ -12,6 +12,7 @@
 #include "tests/tools/temporary_folder.hpp"
 #include "tools/snapshot/folder.hpp"
 
+using namespace gvom;
 using namespace gvom::ipc;
 using namespace gvom::ipc::test;
 using gvom::test::FlatWorld;
@@ -29,10 +30,10 @@ PoolSpec flat_world_spec() {
 void fill(const FlatWorld& world, LayersWriter& writer) {
   const auto picture = world.picture();
   Layers& header = writer.header();
-  std::copy_n(picture.origin_voxels.begin(), 3, header.origin_voxels);
-  std::fill_n(header.resolution_m, 3, FlatWorld::kResolution_m);
-  std::copy_n(picture.base_position_m.begin(), 3, header.base_position_m);
-  std::copy_n(picture.base_orientation_xyzw.begin(), 4, header.base_orientation_xyzw);
+  header.grid.origin = picture.origin_voxels;
+  header.grid.resolution_m.fill(FlatWorld::kResolution_m);
+  std::copy_n(picture.base_position_m.begin(), 3, header.T_odom_base.position_m);
+  std::copy_n(picture.base_orientation_xyzw.begin(), 4, header.T_odom_base.orientation_xyzw);
   header.maps_in_window = 3;
   header.lidar_count = 1;
   std::strcpy(header.lidars[0].name, "rear");

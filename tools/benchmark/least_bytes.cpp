@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "core/brick_map.hpp"
+#include "core/format/brick_map.hpp"
 
 namespace gvom::bench {
 

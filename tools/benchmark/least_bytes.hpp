@@ -1,7 +1,7 @@
 // The fewest bytes that a tick must move, whoever computes it: what its time is held against.
 #pragma once
 
-#include "core/layers.hpp"
+#include "core/format/layers.hpp"
 #include "core/window.hpp"
 
 namespace gvom::bench {

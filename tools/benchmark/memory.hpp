@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/brick_map.hpp"
-#include "core/layers.hpp"
+#include "core/format/brick_map.hpp"
+#include "core/format/layers.hpp"
 #include "core/open_backend.hpp"
 
 namespace gvom::bench {

@@ -40,7 +40,7 @@ DeviceExpected<VoxelizingTimes> measure_voxelizing(Backend which, const MapConfi
       times.count.add(count_ms);
       times.write.add(write_ms);
       times.both.add(count_ms + write_ms);
-      if (repeat == 0) times.maps.push_back(copy_of(map_in_one({grid, 0, pose, *shape}, arrays)));
+      if (repeat == 0) times.maps.push_back(copy_of(map_in_one({grid, 0, record_of(pose), *shape}, arrays)));
     }
   return times;
 }

@@ -132,7 +132,7 @@ double age_s(const ipc::Layers& layers, const ipc::Moment& now) {
 LayersView view_of(const ipc::Layers& layers, const ipc::Moment& now) {
   LayersView view{
       age_s(layers, now), seconds_since(layers.mono_published_ns, now.mono_ns), layers.maps_in_window, {}};
-  const auto count = std::min<std::uint32_t>(layers.lidar_count, ipc::kMaxLidars);
+  const auto count = std::min<std::uint32_t>(layers.lidar_count, kMaxLidars);
   for (std::uint32_t i = 0; i < count; ++i) {
     const ipc::LidarStatus& lidar = layers.lidars[i];
     view.lidars.push_back({std::string(ipc::text_of(lidar.name)), lidar.missing != 0, lidar.maps_in_window,
@@ -143,7 +143,7 @@ LayersView view_of(const ipc::Layers& layers, const ipc::Moment& now) {
 
 /// How old the newest map of a lidar is: as old as the layers, and by as much older as its stamp is.
 std::optional<double> map_age_s(const ipc::Layers& layers, const std::string& lidar, const ipc::Moment& now) {
-  const auto count = std::min<std::uint32_t>(layers.lidar_count, ipc::kMaxLidars);
+  const auto count = std::min<std::uint32_t>(layers.lidar_count, kMaxLidars);
   for (std::uint32_t i = 0; i < count; ++i) {
     const ipc::LidarStatus& status = layers.lidars[i];
     if (ipc::text_of(status.name) != lidar || status.newest_stamp_ns == 0) continue;

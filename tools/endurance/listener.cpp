@@ -46,14 +46,14 @@ std::uint64_t key_of(const ipc::Layers& layers) {
 std::uint64_t checksum_of(const ipc::LayersSample& layers) {
   Checksum sum;
   const ipc::Layers& header = layers.header();
-  sum.add(header.origin_voxels);
-  sum.add(header.size_voxels);
-  sum.add(header.base_position_m);
-  sum.add(header.base_orientation_xyzw);
-  for (int i = 0; i < ipc::kLayers; ++i) {
-    const auto floats = layers.layer_f(static_cast<ipc::LayerId>(i));
+  sum.add(header.grid.origin);
+  sum.add(header.grid.size);
+  sum.add(header.T_odom_base.position_m);
+  sum.add(header.T_odom_base.orientation_xyzw);
+  for (int i = 0; i < kLayers; ++i) {
+    const auto floats = layers.layer_f(static_cast<LayerId>(i));
     sum.add(floats.data(), floats.size() * sizeof(float));
-    const auto bytes = layers.layer_u8(static_cast<ipc::LayerId>(i));
+    const auto bytes = layers.layer_u8(static_cast<LayerId>(i));
     sum.add(bytes.data(), bytes.size());
   }
   return sum.value();

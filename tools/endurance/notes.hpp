@@ -10,7 +10,7 @@
 namespace gvom::endurance {
 
 template <typename T>
-using PerLidar = std::array<T, ipc::kMaxLidars>;
+using PerLidar = std::array<T, kMaxLidars>;
 
 /// Layers as they were heard, without their arrays.
 struct LayersNote {

@@ -114,25 +114,25 @@ LayersPicture picture_of(const ipc::LayersSample& sample, const std::string& veh
   const ipc::Layers& header = sample.header();
   LayersPicture picture;
   picture.vehicle = vehicle;
-  picture.n_xy = header.size_voxels[0];
-  picture.n_z = header.size_voxels[2];
-  std::copy_n(header.origin_voxels, 3, picture.origin_voxels.begin());
-  picture.resolution_xy_m = header.resolution_m[0];
-  picture.resolution_z_m = header.resolution_m[2];
-  std::copy_n(header.base_position_m, 3, picture.base_position_m.begin());
-  std::copy_n(header.base_orientation_xyzw, 4, picture.base_orientation_xyzw.begin());
+  picture.n_xy = header.grid.size[0];
+  picture.n_z = header.grid.size[2];
+  picture.origin_voxels = header.grid.origin;
+  picture.resolution_xy_m = header.grid.resolution_m[0];
+  picture.resolution_z_m = header.grid.resolution_m[2];
+  std::copy_n(header.T_odom_base.position_m, 3, picture.base_position_m.begin());
+  std::copy_n(header.T_odom_base.orientation_xyzw, 4, picture.base_orientation_xyzw.begin());
   picture.stamp_ns = header.header.stamp_ns;
   const auto age = sample.age();
   picture.age_s = age == ipc::kUnknownAge ? std::numeric_limits<double>::infinity() : seconds(age);
   picture.maps_in_window = header.maps_in_window;
   for (std::uint32_t i = 0; i < header.lidar_count; ++i)
     picture.lidars.push_back(line_of(header.lidars[i], picture.stamp_ns));
-  for (std::size_t i = 0; i < ipc::kLayers; ++i) {
-    const auto layer = static_cast<ipc::LayerId>(i);
-    if (i < ipc::kFloatLayers) {
+  for (std::size_t i = 0; i < kLayers; ++i) {
+    const auto layer = static_cast<LayerId>(i);
+    if (i < kFloatLayers) {
       picture.float_layers[i] = sample.layer_f(layer).data();
     } else {
-      picture.byte_layers[i - ipc::kFloatLayers] = sample.layer_u8(layer).data();
+      picture.byte_layers[i - kFloatLayers] = sample.layer_u8(layer).data();
     }
   }
   return picture;

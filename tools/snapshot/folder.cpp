@@ -109,7 +109,7 @@ tl::expected<StoredLayers, std::string> read_folder(const std::string& folder) {
     picture.float_layers[i] = *values;
   }
   for (std::size_t i = 0; i < stored.byte_values.size(); ++i) {
-    const auto values = read_layer(layer_path(folder, ipc::kFloatLayers + i), n_xy, stored.byte_values[i]);
+    const auto values = read_layer(layer_path(folder, kFloatLayers + i), n_xy, stored.byte_values[i]);
     if (!values) return tl::make_unexpected(values.error());
     picture.byte_layers[i] = *values;
   }
@@ -121,11 +121,11 @@ tl::expected<void, std::string> write_folder(const std::string& folder, const La
   std::filesystem::create_directories(folder, error);
   if (error) return tl::make_unexpected(folder + ": cannot be made: " + error.message());
   const std::vector<std::size_t> shape(2, static_cast<std::size_t>(picture.n_xy));
-  for (std::size_t i = 0; i < ipc::kLayers; ++i) {
+  for (std::size_t i = 0; i < kLayers; ++i) {
     const auto written =
-        i < ipc::kFloatLayers
+        i < kFloatLayers
             ? npy::write_npy(layer_path(folder, i), shape, picture.float_layers[i])
-            : npy::write_npy(layer_path(folder, i), shape, picture.byte_layers[i - ipc::kFloatLayers]);
+            : npy::write_npy(layer_path(folder, i), shape, picture.byte_layers[i - kFloatLayers]);
     if (!written) return written;
   }
   const std::string path = folder + "/meta.json";

@@ -17,8 +17,8 @@ struct StoredLayers {
   StoredLayers& operator=(StoredLayers&&) = default;
 
   LayersPicture picture;
-  std::array<std::vector<float>, ipc::kFloatLayers> float_values;
-  std::array<std::vector<std::uint8_t>, ipc::kLayers - ipc::kFloatLayers> byte_values;
+  std::array<std::vector<float>, kFloatLayers> float_values;
+  std::array<std::vector<std::uint8_t>, kLayers - kFloatLayers> byte_values;
 };
 
 /// Needs in meta.json `stamp_ns`, `origin` [x, y, z], `size` [n_xy, n_xy, n_z], `resolution_m` [xy, z]; takes

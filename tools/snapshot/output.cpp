@@ -29,8 +29,8 @@ tl::expected<void, std::string> Output::write(const LayersPicture& picture) {
     return render_layer(picture, panel).write_png(prefix + panel.name + ".png");
   };
   if (auto written = write_panel(make_overview(picture)); !written) return written;
-  for (int layer = 0; layer < ipc::kLayers; ++layer)
-    if (auto written = write_panel(make_panel(static_cast<ipc::LayerId>(layer), picture)); !written)
+  for (int layer = 0; layer < kLayers; ++layer)
+    if (auto written = write_panel(make_panel(static_cast<LayerId>(layer), picture)); !written)
       return written;
 
   if (options_.npy) {

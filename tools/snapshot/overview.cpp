@@ -6,8 +6,6 @@
 namespace gvom::snapshot {
 namespace {
 
-using ipc::LayerId;
-
 constexpr double kMinHeightSpan_m = 4.0;
 
 Rgb shaded(Rgb colour, double light) {
@@ -43,9 +41,9 @@ Panel make_overview(const LayersPicture& picture) {
   panel.title = "Overview: relief and obstacles";
   panel.unit = "m, odom";
   panel.columns = paint(picture, [&](std::size_t i) {
-    if (flags[i] & ipc::kHard) return kHardColour;
-    if (flags[i] & ipc::kNegative) return kNegativeColour;
-    if (flags[i] & ipc::kSoft) return kSoftColour;
+    if (flags[i] & kHard) return kHardColour;
+    if (flags[i] & kNegative) return kNegativeColour;
+    if (flags[i] & kSoft) return kSoftColour;
     if (std::isnan(height[i])) return kUnknown;
     return shaded(kTerrain.at(scale.fraction(height[i])), relief(slope_x[i], slope_y[i]));
   });

@@ -6,9 +6,6 @@
 namespace gvom::snapshot {
 namespace {
 
-using ipc::LayerId;
-using ipc::Visibility;
-
 constexpr double kDegrees = 57.29577951308232;
 constexpr double kMinHeightSpan_m = 2.0;
 
@@ -55,8 +52,8 @@ Panel obstacles(const LayersPicture& picture) {
   const std::uint8_t* flags = picture.bytes(LayerId::flags);
   Panel panel;
   panel.columns = paint(picture, [&](std::size_t i) {
-    if (flags[i] & ipc::kHard) return kReds.at(density[i]);
-    if (flags[i] & ipc::kSoft) return kGreens.at(density[i]);
+    if (flags[i] & kHard) return kReds.at(density[i]);
+    if (flags[i] & kSoft) return kGreens.at(density[i]);
     return std::isnan(density[i]) ? kUnknown : kPlainGround;
   });
   panel.bars = {{"hard", &kReds, {0, 1}}, {"soft", &kGreens, {0, 1}}};
@@ -70,7 +67,7 @@ Panel negative_obstacles(const LayersPicture& picture) {
   const Scale scale{0, std::min(10.0, largest_finite(delta, picture.columns(), 2.0))};
   Panel panel;
   panel.columns = paint(picture, [&](std::size_t i) {
-    if (flags[i] & ipc::kNegative) return kViolets.at(scale.fraction(delta[i]));
+    if (flags[i] & kNegative) return kViolets.at(scale.fraction(delta[i]));
     const Visibility seen = visibility_of(picture, i);
     if (seen == Visibility::unobserved) return kUnknown;
     if (seen != Visibility::free_only) return kPlainGround;
@@ -116,11 +113,11 @@ struct FlagColour {
   Rgb colour;
   const char* name;
 };
-constexpr FlagColour kFlagColours[] = {{ipc::kNegative, kNegativeColour, "NEGATIVE"},
-                                       {ipc::kHard, kHardColour, "HARD"},
-                                       {ipc::kSteep, kSteepColour, "STEEP"},
-                                       {ipc::kSoft, kSoftColour, "SOFT"},
-                                       {ipc::kAssumed, kAssumedColour, "ASSUMED"}};
+constexpr FlagColour kFlagColours[] = {{kNegative, kNegativeColour, "NEGATIVE"},
+                                       {kHard, kHardColour, "HARD"},
+                                       {kSteep, kSteepColour, "STEEP"},
+                                       {kSoft, kSoftColour, "SOFT"},
+                                       {kAssumed, kAssumedColour, "ASSUMED"}};
 
 Panel flags_panel(const LayersPicture& picture) {
   const std::uint8_t* flags = picture.bytes(LayerId::flags);
@@ -195,7 +192,7 @@ struct Heading {
   const char* title;
   const char* unit;
 };
-constexpr std::array<Heading, ipc::kLayers> kHeadings = {{
+constexpr std::array<Heading, kLayers> kHeadings = {{
     {"Height of the ground", "m, odom"},
     {"Inferred height: ground is at most", "m, odom"},
     {"Slope along x", "m/m"},

@@ -51,7 +51,7 @@ std::vector<Rgb> paint(const LayersPicture& picture, ColourOf colour_of) {
 }
 
 /// The panel of one layer.
-Panel make_panel(ipc::LayerId layer, const LayersPicture& picture);
+Panel make_panel(LayerId layer, const LayersPicture& picture);
 
 /// Shaded relief with the obstacles on top: the whole map at a glance. Its name is "overview".
 Panel make_overview(const LayersPicture& picture);

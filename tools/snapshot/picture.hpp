@@ -36,14 +36,12 @@ struct LayersPicture {
       std::nan("");  ///< Of the data, as ipc/freshness.hpp has it; infinite: unknown. NaN: not live.
   std::uint32_t maps_in_window = 0;
   std::vector<LidarLine> lidars;
-  std::array<const float*, ipc::kFloatLayers> float_layers{};                       ///< height .. last_seen
-  std::array<const std::uint8_t*, ipc::kLayers - ipc::kFloatLayers> byte_layers{};  ///< flags .. cost
+  std::array<const float*, kFloatLayers> float_layers{};                  ///< height .. last_seen
+  std::array<const std::uint8_t*, kLayers - kFloatLayers> byte_layers{};  ///< flags .. cost
 
-  [[nodiscard]] const float* floats(ipc::LayerId id) const {
-    return float_layers[static_cast<std::size_t>(id)];
-  }
-  [[nodiscard]] const std::uint8_t* bytes(ipc::LayerId id) const {
-    return byte_layers[static_cast<std::size_t>(id) - ipc::kFloatLayers];
+  [[nodiscard]] const float* floats(LayerId id) const { return float_layers[static_cast<std::size_t>(id)]; }
+  [[nodiscard]] const std::uint8_t* bytes(LayerId id) const {
+    return byte_layers[static_cast<std::size_t>(id) - kFloatLayers];
   }
   /// Heading in odom, from +x to +y; NaN: not known.
   [[nodiscard]] double base_yaw_rad() const {
@@ -56,18 +54,18 @@ struct LayersPicture {
 };
 
 /// The layers' names in the order of LayerId; files carry them.
-inline constexpr std::array<const char*, ipc::kLayers> kLayerNames = {"height",
-                                                                      "inferred_height",
-                                                                      "slope_x",
-                                                                      "slope_y",
-                                                                      "slope",
-                                                                      "roughness",
-                                                                      "obstacle_density",
-                                                                      "negative_delta",
-                                                                      "clearance",
-                                                                      "last_seen",
-                                                                      "flags",
-                                                                      "visibility",
-                                                                      "cost"};
+inline constexpr std::array<const char*, kLayers> kLayerNames = {"height",
+                                                                 "inferred_height",
+                                                                 "slope_x",
+                                                                 "slope_y",
+                                                                 "slope",
+                                                                 "roughness",
+                                                                 "obstacle_density",
+                                                                 "negative_delta",
+                                                                 "clearance",
+                                                                 "last_seen",
+                                                                 "flags",
+                                                                 "visibility",
+                                                                 "cost"};
 
 }  // namespace gvom::snapshot

@@ -96,7 +96,6 @@ Canvas render_layer(const LayersPicture& picture, const Panel& panel) {
 }
 
 Canvas render_montage(const LayersPicture& picture) {
-  using ipc::LayerId;
   constexpr std::array<LayerId, 11> kOrder = {
       LayerId::height,         LayerId::inferred_height, LayerId::slope,     LayerId::obstacle_density,
       LayerId::negative_delta, LayerId::clearance,       LayerId::roughness, LayerId::cost,

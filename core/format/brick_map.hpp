@@ -6,8 +6,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "core/grid.hpp"
-#include "core/pose.hpp"
+#include "core/format/grid.hpp"
 
 namespace gvom {
 
@@ -17,6 +16,7 @@ struct VoxelRecord {
   std::uint32_t passes;
   float min_height_m;
 };
+static_assert(sizeof(VoxelRecord) == 12);
 
 /// Lookup value of a voxel that is not occupied, and back: -1 - passes (R6), which is the complement.
 GVOM_HD inline std::int32_t free_lookup(std::uint32_t passes) {
@@ -26,7 +26,7 @@ GVOM_HD inline std::uint32_t passes_of(std::int32_t lookup) {
   return ~static_cast<std::uint32_t>(lookup);
 }
 
-/// How much room a map's arrays take.
+/// How many elements a map's arrays have.
 struct BrickMapShape {
   std::uint32_t brick_slots = 0;   ///< Bricks of the whole grid.
   std::uint32_t brick_count = 0;   ///< Bricks with an observed voxel.
@@ -41,11 +41,37 @@ struct BrickMapArrays {
   VoxelRecord* records;     ///< [record_count], in the order of bricks and cells.
 };
 
+/// Where the arrays lie in one piece of memory, bytes from its start; each is aligned to 64.
+struct BrickMapLayout {
+  std::size_t directory;
+  std::size_t lookup;
+  std::size_t columns;
+  std::size_t records;
+  std::size_t bytes;  ///< Of the whole piece.
+};
+
+inline constexpr std::size_t kArrayAlignment = 64;
+
+constexpr std::size_t align_array(std::size_t offset) {
+  return (offset + kArrayAlignment - 1) / kArrayAlignment * kArrayAlignment;
+}
+
+/// The layout behind a header of `header_bytes`.
+constexpr BrickMapLayout brick_map_layout(std::size_t header_bytes, const BrickMapShape& shape) {
+  BrickMapLayout layout{};
+  layout.directory = align_array(header_bytes);
+  layout.lookup = align_array(layout.directory + shape.brick_slots * sizeof(std::int32_t));
+  layout.columns = align_array(layout.lookup + shape.brick_count * kBrickCells * sizeof(std::int32_t));
+  layout.records = align_array(layout.columns + shape.brick_count * sizeof(std::uint64_t));
+  layout.bytes = layout.records + shape.record_count * sizeof(VoxelRecord);
+  return layout;
+}
+
 /// A map to be read.
 struct BrickMapView {
   Grid grid;
   std::int64_t stamp_ns = 0;
-  Pose T_odom_base;  ///< At the stamp.
+  PoseRecord T_odom_base{};  ///< At the stamp.
   BrickMapShape shape;
   const std::int32_t* directory = nullptr;
   const std::int32_t* lookup = nullptr;
