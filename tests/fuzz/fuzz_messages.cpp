@@ -56,7 +56,7 @@ void fuse(const ipc::BrickMapSample& map) {
   config.map.size_xy = config.map.size_z = kSize;
   config.window.buffer_size = 1;
   MapFuser fuser(config);
-  const auto added = fuser.add({services::view_of(map), 0, 0});
+  const auto added = fuser.add({map.view(), 0, 0});
   if (!added || *added != AddResult::added) return;
   require(fuser.make_layers(LayerMemory().arrays()).has_value(), "the CPU makes layers of any map");
   require(fuser.count_voxels()->record_count <= kSize * kSize * kSize, "a grid has so many voxels");
