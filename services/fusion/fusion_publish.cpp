@@ -122,8 +122,7 @@ void FusionNode::publish_voxels() {
   writer->header().grid = moment.grid;
   writer->header().T_odom_base = record_of(moment.T_odom_base);
   writer->header().columns_seen_fraction = 1;
-  if (const auto written = fuser_.write_voxels(writer->arrays()); !written)
-    return fail(written.error());
+  if (const auto written = fuser_.write_voxels(writer->arrays()); !written) return fail(written.error());
   bus_.voxels.publish(std::move(*writer), moment.stamp_ns, epoch_);
   ++counters_.voxel_maps_out;
 }

@@ -44,6 +44,6 @@ TEST_CASE("of more than there is room for, the last heard are kept") {
   fusion::UnknownLidars unknown(known);
   for (int i = 0; i < 40; ++i) unknown.take(progress_of("lidar" + std::to_string(i)), 10 * kSecond_ns + i);
   const auto names = names_at(unknown, 11 * kSecond_ns);
-  CHECK(names.size() == ipc::kMaxLidars);
+  CHECK(names.size() == kMaxLidars);
   CHECK(std::find(names.begin(), names.end(), "lidar39") != names.end());
 }
