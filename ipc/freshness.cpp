@@ -15,6 +15,10 @@ Moment received_at(const Layers& layers) {
   return {layers.mono_received_ns, layers.suspended_ns};
 }
 
+Moment received_at(const BrickMap& map) {
+  return {map.mono_received_ns, map.suspended_ns};
+}
+
 std::chrono::nanoseconds elapsed(const Moment& then, const Moment& now) {
   if (then.mono_ns <= 0 || then.mono_ns > now.mono_ns) return kUnknownAge;
   const std::int64_t suspended_ns = std::max<std::int64_t>(0, now.suspended_ns - then.suspended_ns);

@@ -27,6 +27,8 @@ struct Moment {
 
 /// When the newest packet in the layers was received.
 Moment received_at(const Layers& layers);
+/// When the newest packet in the map, of a sweep or of the fused voxels, was received.
+Moment received_at(const BrickMap& map);
 
 /// From `then` to `now`, suspensions between them included. kUnknownAge where `then` was never, or is later
 /// than `now`: it is of another clock, or somebody lies.

@@ -32,10 +32,13 @@ void FusionNode::judge() {
     words.add("lidar %.*s is not in this configuration: its maps are not taken",
               static_cast<int>(lidar.size()), lidar.data());
   });
-  lateness_.describe(now, words);
   const auto age = lateness_.age(now);
-  if (last_layers_ns_ != 0 && age > ipc::kDefaultMaxAge && !fresh_)
-    words.add("no maps: the layers are %.1f s old", std::chrono::duration<double>(age).count());
+  const bool old = last_layers_ns_ != 0 && age > ipc::kDefaultMaxAge;
+  if (old)
+    words.add(fresh_ ? "the layers are %.1f s behind the packets" : "no maps: the layers are %.1f s old",
+              std::chrono::duration<double>(age).count());
+  else
+    lateness_.describe(now, words);
   if (!words.empty())
     health_.set_state(ipc::HealthState::degraded, words.text());
   else if (last_layers_ns_ == 0)

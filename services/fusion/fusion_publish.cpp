@@ -122,6 +122,8 @@ void FusionNode::publish_voxels() {
   writer->header().grid = moment.grid;
   writer->header().T_odom_base = record_of(moment.T_odom_base);
   writer->header().columns_seen_fraction = 1;
+  writer->header().mono_received_ns = last_received().mono_received_ns;
+  writer->header().suspended_ns = last_received().suspended_ns;
   if (const auto written = fuser_.write_voxels(writer->arrays()); !written) return fail(written.error());
   bus_.voxels.publish(std::move(*writer), moment.stamp_ns, epoch_);
   ++counters_.voxel_maps_out;

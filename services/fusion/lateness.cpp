@@ -33,8 +33,7 @@ std::chrono::nanoseconds Lateness::age(const ipc::Moment& now) const {
 void Lateness::describe(const ipc::Moment& now, services::Words& words) {
   if (noticed_ns_ != 0 && now.mono_ns - noticed_ns_ > kTold_ns) noticed_ns_ = 0;
   if (noticed_ns_ == 0) return;
-  words.add("the layers %s %.1f s behind the packets", age(now) > kLate ? "are" : "were",
-            static_cast<double>(behind_ns_) * 1e-9);
+  words.add("the layers were %.1f s behind the packets", static_cast<double>(behind_ns_) * 1e-9);
 }
 
 }  // namespace gvom::fusion

@@ -21,8 +21,7 @@ class Lateness {
   /// Of the layers that went out last. kUnknownAge: none yet.
   [[nodiscard]] std::chrono::nanoseconds age(const ipc::Moment& now) const;
 
-  /// "the layers are 2.1 s behind the packets", for two seconds after it was last so; "were" if the newest
-  /// are not.
+  /// "the layers were 2.1 s behind the packets", for two seconds after it was last so.
   void describe(const ipc::Moment& now, services::Words& words);
 
  private:

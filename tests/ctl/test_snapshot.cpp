@@ -133,6 +133,18 @@ TEST_CASE("who runs another configuration than the file's, or another gvom, is a
   for (const std::string& problem : vehicle.snapshot().problems) CHECK_THAT(problem, Contains("is missing"));
 }
 
+TEST_CASE("a broker with other pools than the file's is a problem") {
+  VehicleAt vehicle;
+  vehicle.expected.pools = {{1000, 100}, {2000, 10}};
+  CHECK(vehicle.snapshot().problems.empty());
+  vehicle.expected.pools[1].chunks = 11;
+  CHECK(vehicle.snapshot().problems ==
+        std::vector<std::string>{
+            "gvom-roudi has the pools of another configuration than the file's: restart it"});
+  vehicle.expected.pools.clear();
+  CHECK(vehicle.snapshot().problems.empty());
+}
+
 TEST_CASE("a message that was not read is a problem: somebody is of another gvom") {
   VehicleAt vehicle;
   const std::string why = "health: message of gvom 0.2 (version 2) refused, this is 0.3.0 (version 3)";

@@ -100,12 +100,21 @@ TEST_CASE("status: all is well while a replay runs, and a killed ingest is missi
     CHECK(pool["used"] <= pool["chunks"]);
   }
 
+  graph.fusion().send(SIGSTOP);
+  status = status_of(graph.vehicle());
+  CHECK(status.code == 1);
+  CHECK_THAT(status.json["problems"].dump(), Contains("the newest layers are "));
+  CHECK(status.json["layers"]["age_s"].get<double>() > 0.5);
+  graph.fusion().send(SIGCONT);
+  status_becomes(graph.vehicle(), 0);
+
   Vehicle changed = graph.vehicle();  // as if the file were edited under them
-  changed.sets.emplace_back("fusion.missing_after_s=0.4");
+  changed.sets.insert(changed.sets.end(), {"fusion.missing_after_s=0.4", "ipc.max_planners=3"});
   const Status other = status_of(changed);
   CHECK(other.code == 1);
   CHECK_THAT(other.json["problems"].dump(),
-             Contains("gvom-fusion runs with another configuration than the file's: restart it") &&
+             Contains("gvom-roudi has the pools of another configuration") &&
+                 Contains("gvom-fusion runs with another configuration than the file's: restart it") &&
                  Contains("gvom-odometry runs with") && Contains("gvom-ingest-rear runs with"));
 
   CHECK(graph.ingest("front").kill_asleep() == 128 + SIGKILL);

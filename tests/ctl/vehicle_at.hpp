@@ -41,6 +41,7 @@ struct VehicleAt {
   ctl::Expected expected{"two_lidars",
                          {"gvom-odometry", "gvom-fusion", "gvom-ingest-front", "gvom-ingest-rear"},
                          kVersion,
+                         {},
                          kConfigHash};
   ctl::Broker broker{ctl::BrokerState::up, true, 3, ""};
   ctl::Observed observed;

@@ -46,7 +46,7 @@ TEST_CASE("who keeps up is not behind, and nobody is before the first layers") {
 TEST_CASE("layers of old packets are behind by their age") {
   fusion::Lateness lateness;
   const std::int64_t now_ns = run_well(lateness, 10'000 * kMs_ns, 2059 * kMs_ns);
-  CHECK(words_of(lateness, now_ns) == "the layers are 2.1 s behind the packets");
+  CHECK(words_of(lateness, now_ns) == "the layers were 2.1 s behind the packets");
 }
 
 TEST_CASE("a pause is told by the age that the layers had reached, and for two seconds") {

@@ -159,6 +159,15 @@ void judge_build(const Expected& expected, ProcessView& view) {
   view.other_config = expected.config_hash && view.config_hash != hash_text(*expected.config_hash);
 }
 
+/// The broker tells no configuration, but has pools for one.
+bool has_other_pools(const std::vector<ipc::PoolUse>& there, const std::vector<ipc::Pool>& expected) {
+  const auto same = [](const ipc::PoolUse& pool, const ipc::Pool& wanted) {
+    return pool.chunk_bytes == wanted.chunk_bytes && pool.chunks == wanted.chunks;
+  };
+  if (there.empty() || expected.empty()) return false;
+  return !std::equal(there.begin(), there.end(), expected.begin(), expected.end(), same);
+}
+
 /// One that is expected and was never heard.
 ProcessView never_heard(const std::string& name, const Broker& broker) {
   ProcessView view;
@@ -172,6 +181,7 @@ std::vector<ProcessView> processes_of(const Broker& broker, const Observed& obse
                                       const Expected& expected, const Surroundings& surroundings,
                                       std::int64_t mono_ns) {
   std::vector<ProcessView> views = {view_of(broker, surroundings)};
+  views.front().other_config = has_other_pools(observed.pools(), expected.pools);
   const auto add_heard = [&](const HeardProcess& heard) {
     views.push_back(view_of(heard, surroundings, mono_ns));
     judge_silence(broker, views.back());
@@ -212,7 +222,10 @@ void add_problems(const ProcessView& process, const std::string& version,
   if (process.other_version)
     problems.push_back(
         fmt::format("{} is of gvom {}, this is {}: restart it", process.name, process.version, version));
-  if (process.other_config)
+  if (process.other_config && process.name == kBroker)
+    problems.push_back(
+        fmt::format("{} has the pools of another configuration than the file's: restart it", process.name));
+  else if (process.other_config)
     problems.push_back(
         fmt::format("{} runs with another configuration than the file's: restart it", process.name));
 }

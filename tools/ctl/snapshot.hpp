@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "ipc/freshness.hpp"
+#include "ipc/pools.hpp"
 #include "tools/common/health_view.hpp"
 #include "tools/common/process_usage.hpp"
 #include "tools/ctl/observed.hpp"
@@ -29,6 +30,7 @@ struct Expected {
   std::string vehicle;                       ///< Empty: no file was given, nothing is missed.
   std::vector<std::string> processes;        ///< Runtime names, in the order in which they are shown.
   std::string version;                       ///< Of this gvom; empty: not compared.
+  std::vector<ipc::Pool> pools;              ///< That the broker makes for the file; empty: not known.
   std::optional<std::uint64_t> config_hash;  ///< Of the file, as ipc::Health has it.
 };
 
