@@ -2,6 +2,7 @@
 // the caller's, usually a chunk of shared memory.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -17,6 +18,8 @@ struct VoxelRecord {
   float min_height_m;
 };
 static_assert(sizeof(VoxelRecord) == 12);
+
+inline constexpr VoxelRecord kUnknownVoxel = {0, 0, std::numeric_limits<float>::infinity()};
 
 /// Lookup value of a voxel that is not occupied, and back: -1 - passes (R6), which is the complement.
 GVOM_HD inline std::int32_t free_lookup(std::uint32_t passes) {
@@ -87,16 +90,50 @@ struct BrickMapView {
     return slot < 0 ? -1 : directory[slot];
   }
 
-  /// What the map says of a world voxel; without hits `min_height_m` is +infinity.
+  /// What the map says of a world voxel; without hits `min_height_m` is +infinity, without hits and passes
+  /// the voxel is unknown, as it is where the grid does not reach.
   [[nodiscard]] VoxelRecord voxel_at(const Int3& world) const {
     const std::int32_t brick =
         brick_at({floor_to_brick(world[0]) / kBrickEdge, floor_to_brick(world[1]) / kBrickEdge,
                   floor_to_brick(world[2]) / kBrickEdge});
-    if (brick < 0) return {0, 0, std::numeric_limits<float>::infinity()};
+    if (brick < 0) return kUnknownVoxel;
     const std::int32_t value =
         lookup[static_cast<std::size_t>(brick) * kBrickCells + cell_in_brick(world[0], world[1], world[2])];
     if (value >= 0) return records[value];
-    return {0, passes_of(value), std::numeric_limits<float>::infinity()};
+    return {0, passes_of(value), kUnknownVoxel.min_height_m};
+  }
+
+  /// The same of the voxel that holds a point in odom.
+  [[nodiscard]] VoxelRecord voxel_at_m(double x_m, double y_m, double z_m) const {
+    const double point_m[3] = {x_m, y_m, z_m};
+    Int3 world{};
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double voxel = std::floor(voxel_coordinate(point_m[a], grid.resolution_m[a]));
+      const double from_origin = voxel - grid.origin[a];
+      const bool inside = from_origin >= 0 && from_origin < grid.size[a];
+      if (!inside) return kUnknownVoxel;
+      world[a] = static_cast<std::int32_t>(voxel);
+    }
+    return voxel_at(world);
+  }
+
+  /// Calls `visit(const Int3& world, const VoxelRecord&)` for each voxel with hits, brick by brick.
+  template <class Visit>
+  void for_each_hit(Visit&& visit) const {
+    const Int3 n = grid.bricks();
+    for (std::uint32_t slot = 0; slot < shape.brick_slots; ++slot) {
+      if (directory[slot] < 0) continue;
+      const auto s = static_cast<std::int32_t>(slot);
+      const Int3 corner = {grid.origin[0] + s % n[0] * kBrickEdge,
+                           grid.origin[1] + s / n[0] % n[1] * kBrickEdge,
+                           grid.origin[2] + s / (n[0] * n[1]) * kBrickEdge};
+      const std::int32_t* cells = lookup + static_cast<std::size_t>(directory[slot]) * kBrickCells;
+      for (std::int32_t i = 0; i < kBrickCells; ++i)
+        if (cells[i] >= 0)
+          visit(Int3{corner[0] + i / kBrickColumns, corner[1] + i / kBrickEdge % kBrickEdge,
+                     corner[2] + i % kBrickEdge},
+                records[cells[i]]);
+    }
   }
 };
 

@@ -64,6 +64,11 @@ struct Grid {
     }
     return static_cast<std::int32_t>(brick_slot(b[0], b[1], b[2], n[0], n[1]));
   }
+  /// The middle of a world voxel, metres in odom.
+  [[nodiscard]] std::array<double, 3> center_m(const Int3& world) const {
+    return {(world[0] + 0.5) * resolution_m[0], (world[1] + 0.5) * resolution_m[1],
+            (world[2] + 0.5) * resolution_m[2]};
+  }
   [[nodiscard]] bool same_shape(const Grid& other) const {
     return size == other.size && resolution_m == other.resolution_m;
   }
