@@ -7,6 +7,7 @@
 #include "services/ingest/scan_source.hpp"
 #include "services/ingest/udp_receiver.hpp"
 #include "services/ingest/uri.hpp"
+#include "services/ingest/velodyne_calibration.hpp"
 #include "services/ingest/velodyne_decoder.hpp"
 
 namespace gvom::ingest {
@@ -27,25 +28,38 @@ DecoderResult make_ouster(const SourceUri& uri, const SourceOptions& options, So
   return std::make_unique<OusterDecoder>(std::move(*metadata), options, state);
 }
 
-DecoderResult make_velodyne(const SourceUri& uri, const SourceOptions& options, SourceState& state) {
+using ModelResult = tl::expected<VelodyneModel, std::string>;
+
+ModelResult velodyne_model(const SourceUri& uri) {
+  const auto wrong = [&](const std::string& what) {
+    return tl::unexpected("source '" + uri.text + "': " + what);
+  };
   const auto name = uri.option("model");
-  if (!name)
-    return tl::unexpected("source '" + uri.text + "': needs model=M (" + known_velodyne_models() + ")");
+  if (!name) return wrong("needs model=M (" + known_velodyne_models() + ")");
   const VelodyneModel* model = find_velodyne_model(*name);
-  if (model == nullptr) {
-    return tl::unexpected("source '" + uri.text + "': unknown model '" + *name + "' (" +
-                          known_velodyne_models() + ")");
-  }
+  if (model == nullptr) return wrong("unknown model '" + *name + "' (" + known_velodyne_models() + ")");
+  const auto calibration = uri.option("calibration");
+  if (model->corrections.empty() && calibration) return wrong("a " + *name + " has no calibration");
+  if (model->corrections.empty()) return *model;
+  if (!calibration) return wrong("needs calibration=FILE.yaml: each " + *name + " has its own");
+  return read_velodyne_calibration(*calibration);
+}
+
+DecoderResult make_velodyne(const SourceUri& uri, const SourceOptions& options, SourceState& state) {
+  auto model = velodyne_model(uri);
+  if (!model) return tl::unexpected(model.error());
   VelodyneMarks marks{model->model_byte, model->banks, std::nullopt};
   const auto byte = number_option(uri, "model_byte", 0xFF);
   if (!byte) return tl::unexpected(byte.error());
-  if (*byte) marks.model_byte = static_cast<std::uint8_t>(**byte);
+  if (*byte && marks.model_byte) marks.model_byte = static_cast<std::uint8_t>(**byte);
+  if (*byte && !marks.model_byte)
+    return tl::unexpected("source '" + uri.text + "': model_byte: an HDL-64E sends none");
   if (const auto returns = uri.option("returns")) {
     if (*returns != "single" && *returns != "dual")
       return tl::unexpected("source '" + uri.text + "': returns '" + *returns + "' is not single or dual");
     marks.returns = *returns == "dual" ? VelodyneReturns::dual : VelodyneReturns::single;
   }
-  return std::make_unique<VelodyneDecoder>(*model, marks, options, state);
+  return std::make_unique<VelodyneDecoder>(std::move(*model), marks, options, state);
 }
 
 DecoderResult make_decoder(const SourceUri& uri, const SourceOptions& options, SourceState& state) {
@@ -135,8 +149,8 @@ tl::expected<std::unique_ptr<Source>, SourceError> open_source(const std::string
   const std::map<std::string, std::set<std::string>> schemes = {
       {"ouster", {"meta", "port", "serial"}},
       {"ouster-udp", {"bind", "meta", "serial"}},
-      {"velodyne", {"model", "model_byte", "port", "returns"}},
-      {"velodyne-udp", {"bind", "model", "model_byte", "returns"}},
+      {"velodyne", {"calibration", "model", "model_byte", "port", "returns"}},
+      {"velodyne-udp", {"bind", "calibration", "model", "model_byte", "returns"}},
       {"scans", {"floats", "time"}},
   };
   const auto scheme = schemes.find(uri->scheme);

@@ -61,6 +61,8 @@ bool VelodyneDecoder::recognises(const Packet& packet) const {
 std::string VelodyneDecoder::expects() const {
   char byte[32] = "";
   if (marks_.model_byte) std::snprintf(byte, sizeof byte, ", model byte 0x%02X", *marks_.model_byte);
+  if (marks_.banks == 2)
+    return std::string(model_.name) + ": packets of 1206 bytes of blocks FF EE and FF DD";
   return std::string(model_.name) + ": packets of 1206 bytes that begin with FF EE" + byte;
 }
 
@@ -166,11 +168,14 @@ int VelodyneDecoder::blocks_used() const {
 
 int VelodyneDecoder::read_shots(const std::uint8_t* packet, std::int64_t time_ns) {
   const int step = dual_ ? 2 : 1;
+  const bool banks_first = model_.banks == 2;  // HDL-64E: upper, lower, upper again, lower again
   int count = 0;
   for (int i = 0; i < blocks_used(); i += step) {
     const int bank = i / step % model_.banks;
-    const std::uint8_t* block = packet + static_cast<std::size_t>(i) * kVelodyneBlockSize;
-    const std::uint8_t* second = dual_ ? block + kVelodyneBlockSize : nullptr;
+    const int at = banks_first ? i - bank * (step - 1) : i;
+    const std::uint8_t* block = packet + static_cast<std::size_t>(at) * kVelodyneBlockSize;
+    const std::size_t apart = static_cast<std::size_t>(banks_first ? 2 : 1) * kVelodyneBlockSize;
+    const std::uint8_t* second = dual_ ? block + apart : nullptr;
     if (!is_block(block, bank) || (dual_ && !is_block(second, bank))) {
       state_.counters.invalid_columns += static_cast<std::uint64_t>(step);
       continue;
@@ -242,9 +247,15 @@ std::size_t VelodyneDecoder::project(const Shot& shot, const std::uint8_t* block
     const double turned_deg = (shot.azimuth + shot.gap * (laser.firing_us / model_.sequence_us)) * 0.01;
     const double azimuth = (turned_deg + laser.azimuth_deg) * kRadiansPerDegree;
     const double range_m = range * model_.range_unit_m;
-    const double level_m = range_m * lasers_[i].cos_vertical;
-    scratch_[count++] = {level_m * std::cos(azimuth), -level_m * std::sin(azimuth),
-                         range_m * lasers_[i].sin_vertical, time_index};
+    const auto [cos_vertical, sin_vertical] = lasers_[i];
+    if (!model_.corrections.empty()) {
+      const auto p = corrected_point(model_.corrections[i], range_m, azimuth, cos_vertical, sin_vertical);
+      scratch_[count++] = {p.x_m, p.y_m, p.z_m, time_index};
+      continue;
+    }
+    const double level_m = range_m * cos_vertical;
+    scratch_[count++] = {level_m * std::cos(azimuth), -level_m * std::sin(azimuth), range_m * sin_vertical,
+                         time_index};
   }
   return count;
 }

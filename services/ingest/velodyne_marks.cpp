@@ -32,6 +32,15 @@ int banks_of(const std::uint8_t* packet) {
   return banks;
 }
 
+/// Of blocks of two banks: whether each two sequences have one azimuth, and not all of them.
+bool repeats_azimuths(const std::uint8_t* packet) {
+  const auto azimuth = [packet](std::size_t block) {
+    return load_le<std::uint16_t>(packet + block * kVelodyneBlockSize + 2);
+  };
+  return azimuth(0) == azimuth(2) && azimuth(4) == azimuth(6) && azimuth(8) == azimuth(10) &&
+         azimuth(0) != azimuth(4) && azimuth(4) != azimuth(8);
+}
+
 void name_model(std::uint8_t byte, KindText& out) {
   const auto* const known = std::find_if(std::begin(kModels), std::end(kModels),
                                          [byte](const KnownByte& model) { return model.byte == byte; });
@@ -63,7 +72,7 @@ bool VelodyneMarks::fit(const std::uint8_t* packet) const {
 
 VelodyneReturns VelodyneMarks::returns_of(const std::uint8_t* packet) const {
   if (returns) return *returns;
-  if (!model_byte) return VelodyneReturns::single;
+  if (!model_byte) return repeats_azimuths(packet) ? VelodyneReturns::dual : VelodyneReturns::single;
   return velodyne_returns(packet).value_or(VelodyneReturns::single);
 }
 

@@ -28,7 +28,7 @@ std::optional<VelodyneReturns> velodyne_returns(const std::uint8_t* packet);
 
 /// What the packets of one source must say of themselves.
 struct VelodyneMarks {
-  std::optional<std::uint8_t> model_byte;  ///< Nothing for a sensor that sends none (HDL-64E).
+  std::optional<std::uint8_t> model_byte;  ///< Nothing for a sensor that sends none, nor a mode (HDL-64E).
   int banks = 1;                           ///< 1, 2 (HDL-64E) or 4 (VLS-128).
   /// In place of what the mode byte says.
   std::optional<VelodyneReturns> returns;

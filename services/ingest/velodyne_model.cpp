@@ -1,6 +1,7 @@
 #include "services/ingest/velodyne_model.hpp"
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 namespace gvom::ingest {
@@ -9,7 +10,7 @@ namespace {
 /// A VLP-16, or a Puck Hi-Res: the same but for its angles.
 VelodyneModel make_puck(std::string_view name, std::uint8_t byte,
                         const std::array<double, 16>& vertical_deg) {
-  VelodyneModel model{name, byte, 0.002, 110.592, 1, 2, 55.296, {}};
+  VelodyneModel model{name, byte, 0.002, 110.592, 1, 2, 55.296, {}, {}};
   for (std::size_t i = 0; i < 32; ++i) {
     const auto firing = static_cast<double>(i / 16);
     const auto laser = static_cast<double>(i % 16);
@@ -26,7 +27,7 @@ VelodyneModel make_vlp32c() {
   constexpr double kAzimuthDeg[32] = {1.4,  -4.2, 1.4,  -1.4, 1.4,  -1.4, 4.2,  -1.4, 1.4,  -4.2, 1.4,
                                       -1.4, 4.2,  -1.4, 4.2,  -1.4, 1.4,  -4.2, 1.4,  -4.2, 4.2,  -1.4,
                                       1.4,  -1.4, 1.4,  -1.4, 1.4,  -4.2, 4.2,  -1.4, 1.4,  -1.4};
-  VelodyneModel model{"VLP-32C", 0x28, 0.004, 55.296, 1, 1, 55.296, {}};
+  VelodyneModel model{"VLP-32C", 0x28, 0.004, 55.296, 1, 1, 55.296, {}, {}};
   for (std::size_t i = 0; i < 32; ++i) {
     model.lasers.push_back({kVerticalDeg[i], kAzimuthDeg[i], 2.304 * static_cast<double>(i / 2)});
   }
@@ -38,7 +39,7 @@ VelodyneModel make_hdl32() {
                                        -25.33, -4.00, -24.00, -2.67, -22.67, -1.33, -21.33, 0.00,
                                        -20.00, 1.33,  -18.67, 2.67,  -17.33, 4.00,  -16.00, 5.33,
                                        -14.67, 6.67,  -13.33, 8.00,  -12.00, 9.33,  -10.67, 10.67};
-  VelodyneModel model{"HDL-32", 0x21, 0.002, 46.080, 1, 1, 46.080, {}};
+  VelodyneModel model{"HDL-32", 0x21, 0.002, 46.080, 1, 1, 46.080, {}, {}};
   for (std::size_t i = 0; i < 32; ++i) {
     model.lasers.push_back({kVerticalDeg[i], 0, 1.152 * static_cast<double>(i)});
   }
@@ -61,11 +62,24 @@ VelodyneModel make_vls128() {
       2.85,    -5.84, -0.45,   8.43,  -2.87,   2.52,   -6.17,   -1.66, 3.73,  -4.96,   0.43};
   constexpr double kAzimuthDeg[8] = {6.354, 4.548, 2.732, 0.911, -0.911, -2.732, -4.548, -6.354};
   constexpr double kGroup_us = 2.665;
-  VelodyneModel model{"VLS-128", 0xA1, 0.004, 20 * kGroup_us, 4, 1, 20 * kGroup_us, {}};
+  VelodyneModel model{"VLS-128", 0xA1, 0.004, 20 * kGroup_us, 4, 1, 20 * kGroup_us, {}, {}};
   for (std::size_t i = 0; i < 128; ++i) {
     const std::size_t group = i / 8;
     model.lasers.push_back(
         {kVerticalDeg[i], kAzimuthDeg[i % 8], kGroup_us * static_cast<double>(group + group / 8)});
+  }
+  return model;
+}
+
+/// Manual of the S3: four lasers of each bank in 7.2 us, eight times 7.2 us are a sequence of both banks. (An
+/// S2 takes 48 us for it: at most 48 us less from a packet's first sequence to its last.)
+VelodyneModel make_hdl64e() {
+  constexpr double kOfFour_us[4] = {0, 1.3, 2.5, 3.7};
+  VelodyneModel model{"HDL-64E", std::nullopt, 0.002, 57.6, 2, 1, 57.6, {}, {}};
+  model.corrections.resize(64);
+  for (std::size_t i = 0; i < 64; ++i) {
+    const auto four = static_cast<double>(i % 32 / 4);
+    model.lasers.push_back({0, 0, 7.2 * four + kOfFour_us[i % 4]});
   }
   return model;
 }
@@ -76,11 +90,35 @@ const std::vector<VelodyneModel>& models() {
       make_puck(
           "Puck-Hi-Res", 0x24,
           {-10, 0.667, -8.667, 2, -7.333, 3.333, -6, 4.667, -4.667, 6, -3.333, 7.333, -2, 8.667, -0.667, 10}),
-      make_vlp32c(), make_hdl32(), make_vls128()};
+      make_vlp32c(),
+      make_hdl32(),
+      make_hdl64e(),
+      make_vls128()};
   return all;
 }
 
 }  // namespace
+
+// Between 2.40 m (1.93 m) and 25.04 m, where the two distances were that it was calibrated at, the correction
+// goes from the one to the other; the height's is their mean.
+VelodynePoint corrected_point(const VelodyneCorrection& correction, double range_m, double azimuth,
+                              double cos_vertical, double sin_vertical) {
+  constexpr double kFar_m = 25.04, kNearX_m = 2.40, kNearY_m = 1.93;
+  const double c = std::cos(azimuth), s = std::sin(azimuth);
+  double more_x_m = correction.range_m, more_y_m = correction.range_m;
+  if (range_m < kFar_m) {
+    const double level_m = (range_m + correction.range_m) * cos_vertical;
+    const auto between = [&](double distance_m, double near_m, double near_more_m) {
+      const double far = (distance_m - near_m) / (kFar_m - near_m);
+      return far * correction.range_m + (1 - far) * near_more_m;
+    };
+    more_x_m = between(std::abs(level_m * s), kNearX_m, correction.near_x_m);
+    more_y_m = between(std::abs(level_m * c), kNearY_m, correction.near_y_m);
+  }
+  return {(range_m + more_y_m) * cos_vertical * c + correction.aside_m * s,
+          -(range_m + more_x_m) * cos_vertical * s + correction.aside_m * c,
+          (range_m + (more_x_m + more_y_m) / 2) * sin_vertical + correction.up_m};
+}
 
 const VelodyneModel* find_velodyne_model(std::string_view name) {
   for (const VelodyneModel& model : models()) {

@@ -53,7 +53,8 @@ void try_payloads(const ByteVector& payload, const std::string& options, const s
 
 TEST_CASE("damaged Ouster packets") {
   for (const char* profile :
-       {"LEGACY", "RNG15_RFL8_NIR8", "RNG19_RFL8_SIG16_NIR16", "RNG19_RFL8_SIG16_NIR16_DUAL"}) {
+       {"LEGACY", "RNG15_RFL8_NIR8", "RNG19_RFL8_SIG16_NIR16", "RNG19_RFL8_SIG16_NIR16_DUAL",
+        "FUSA_RNG15_RFL8_NIR8_DUAL", "RNG19_RFL8_SIG16_NIR16_RGB16_DUAL"}) {
     TemporaryFolder folder;
     OusterSensor sensor;
     sensor.profile = profile;
@@ -72,9 +73,14 @@ TEST_CASE("damaged Velodyne packets") {
     packet[block * 100 + 3] = static_cast<std::uint8_t>(block);
   }
   packet[1203] = 0;
-  for (const char* model : {"VLP-16", "VLP-32C", "HDL-32"}) {
+  packet[1204] = 0x37;
+  packet[1205] = 0x22;
+  for (const char* model : {"VLP-16", "VLP-32C&model_byte=0x22", "HDL-32&model_byte=0x22"}) {
     try_payloads(packet, std::string("?model=") + model, "velodyne");
   }
+  for (std::size_t block = 0; block < 12; ++block)
+    packet[block * 100 + 1] = static_cast<std::uint8_t>(0xEE - 0x11 * (block % 4));
+  try_payloads(packet, "?model=VLS-128&model_byte=0x22", "velodyne");
 }
 
 TEST_CASE("damaged captures, metadata and point clouds") {

@@ -28,7 +28,7 @@ TEST_CASE("URIs that cannot be right are refused with the reason") {
   contains("ouster:a.pcap?metadata=a", "unknown option 'metadata' (ouster takes meta, port, serial)");
   contains("rosbag:a", "unknown scheme 'rosbag'");
   contains("ouster:a.pcap", "needs meta=FILE.json");
-  contains("velodyne:a.pcap", "needs model=M (VLP-16, Puck-Hi-Res, VLP-32C, HDL-32, VLS-128)");
+  contains("velodyne:a.pcap", "needs model=M (VLP-16, Puck-Hi-Res, VLP-32C, HDL-32, HDL-64E, VLS-128)");
   contains("velodyne:a.pcap?model=HDL-64", "unknown model 'HDL-64'");
   contains("velodyne:a.pcap?model=VLP-16&port=0", "port '0' is not a UDP port");
   contains("ouster:a.pcap?meta=a&serial=x", "a: cannot read the sensor's metadata");
