@@ -72,11 +72,12 @@ void VelodyneDecoder::name_other(const Packet& packet, KindText& out) const {
 }
 
 std::string VelodyneDecoder::override_advice(const Packet& packet) const {
+  const std::string expected = "the source says " + expects();
+  if (!marks_.banks_fit(packet.data)) return expected;
   char byte[64];
   std::snprintf(byte, sizeof byte, "model_byte=0x%02X%s", packet.data[kVelodynePacketSize - 1],
                 velodyne_returns(packet.data) ? "" : "&returns=single (or dual)");
-  return "the source says " + expects() +
-         "; if the packets' last bytes are wrong, add to the source: " + byte;
+  return expected + "; if the packets' last bytes are wrong, add to the source: " + byte;
 }
 
 std::uint64_t VelodyneDecoder::sensor_id(const Packet& packet) const {

@@ -32,6 +32,16 @@ int banks_of(const std::uint8_t* packet) {
   return banks;
 }
 
+/// Of blocks of two banks: whether they take turns, as in an S2 and an S3. The first HDL-64E (S1) sent three
+/// upper blocks to a lower one, and no time.
+bool alternates(const std::uint8_t* packet) {
+  for (int i = 0; i < kVelodyneBlocks; ++i) {
+    const auto bank = velodyne_bank(packet + static_cast<std::size_t>(i) * kVelodyneBlockSize);
+    if (bank && *bank != i % 2) return false;
+  }
+  return true;
+}
+
 /// Of blocks of two banks: whether each two sequences have one azimuth, and not all of them.
 bool repeats_azimuths(const std::uint8_t* packet) {
   const auto azimuth = [packet](std::size_t block) {
@@ -64,8 +74,12 @@ std::optional<VelodyneReturns> velodyne_returns(const std::uint8_t* packet) {
   return std::nullopt;
 }
 
+bool VelodyneMarks::banks_fit(const std::uint8_t* packet) const {
+  return velodyne_bank(packet) && banks_of(packet) == banks && (banks != 2 || alternates(packet));
+}
+
 bool VelodyneMarks::fit(const std::uint8_t* packet) const {
-  if (velodyne_bank(packet) == std::nullopt || banks_of(packet) != banks) return false;
+  if (!banks_fit(packet)) return false;
   if (model_byte && packet[kModelAt] != *model_byte) return false;
   return returns || !model_byte || velodyne_returns(packet).has_value();
 }
@@ -79,9 +93,10 @@ VelodyneReturns VelodyneMarks::returns_of(const std::uint8_t* packet) const {
 void VelodyneMarks::name(const std::uint8_t* packet, KindText& out) const {
   out[0] = '\0';
   const int found = banks_of(packet);
-  if (found == 0) return;
+  if (found == 0 || fit(packet)) return;
   if (found == 2) {
-    if (banks != 2) std::snprintf(out.data(), out.size(), "an HDL-64E, blocks DDFF");
+    std::snprintf(out.data(), out.size(), "an HDL-64E%s, blocks DDFF",
+                  alternates(packet) ? "" : " S1, which can't be read");
   } else if (found == 4 && packet[kModelAt] != 0xA1) {
     std::snprintf(out.data(), out.size(), "a VLS-128, blocks BBFF, but model byte 0x%02X", packet[kModelAt]);
   } else if (!model_byte || packet[kModelAt] != *model_byte) {

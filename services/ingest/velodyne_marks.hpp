@@ -35,6 +35,8 @@ struct VelodyneMarks {
 
   /// True if a packet of 1206 bytes has these marks and a return mode that can be read.
   [[nodiscard]] bool fit(const std::uint8_t* packet) const;
+  /// True if its blocks are flagged as a sensor with so many banks does: no option can say otherwise.
+  [[nodiscard]] bool banks_fit(const std::uint8_t* packet) const;
   /// Of a packet that fits.
   [[nodiscard]] VelodyneReturns returns_of(const std::uint8_t* packet) const;
   /// Of a packet that does not fit, what it proves to be: "an HDL-32, model byte 0x21". Empty if it proves

@@ -8,7 +8,7 @@ using namespace gvom::fuzz;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   constexpr const char* kModels[8] = {"VLP-16",      "VLP-32C", "HDL-32",  "VLS-128",
-                                      "Puck-Hi-Res", "VLP-32C", "VLS-128", "HDL-32"};
+                                      "Puck-Hi-Res", "HDL-64E", "VLS-128", "HDL-32"};
   constexpr std::size_t kPacketBytes = 1206;
   Input input(data, size);
   const std::uint8_t how = input.byte();

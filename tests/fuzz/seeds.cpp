@@ -57,9 +57,9 @@ void add_ouster(Seeds& seeds) {
 /// laser.
 ByteVector velodyne_packet(int azimuth, std::uint32_t time_us, std::uint8_t mode, std::uint8_t model) {
   ByteVector out;
-  const int banks = model == 0xA1 ? 4 : 1;
+  const int banks = model == 0xA1 ? 4 : model == 0 ? 2 : 1;
   for (int block = 0; block < 12; ++block) {
-    const int bank = (mode == 0x39 ? block / 2 : block) % banks;
+    const int bank = (mode == 0x39 && banks != 2 ? block / 2 : block) % banks;
     append(out, {0xFF, static_cast<std::uint8_t>(0xEE - 0x11 * bank)});
     put_le(out, static_cast<std::uint16_t>((azimuth + 40 * (mode == 0x39 ? block / 2 : block)) % 36000));
     for (int laser = 0; laser < 32; ++laser) {
@@ -73,8 +73,13 @@ ByteVector velodyne_packet(int azimuth, std::uint32_t time_us, std::uint8_t mode
 }
 
 void add_velodyne(Seeds& seeds) {
-  for (const std::uint8_t how : Bytes{0, 1, 2, 3, 8, 12, 16, 32}) {
-    const std::uint8_t model = how == 1 ? 0x28 : how == 2 ? 0x21 : how == 3 ? 0xA1 : how == 32 ? 0x24 : 0x22;
+  for (const std::uint8_t how : Bytes{0, 1, 2, 3, 8, 12, 16, 32, 33}) {
+    const std::uint8_t model = how == 1    ? 0x28
+                               : how == 2  ? 0x21
+                               : how == 3  ? 0xA1
+                               : how == 32 ? 0x24
+                               : how == 33 ? 0
+                                           : 0x22;
     for (const std::uint8_t mode : Bytes{0x37, 0x39}) {
       ByteVector input{how};
       if (how == 12) input.resize(9);

@@ -177,3 +177,15 @@ TEST_CASE("packets of one bank are not those of an HDL-64E") {
   INFO(error);
   CHECK(error.find("of another sensor (a VLP-16, model byte 0x22)") != std::string::npos);
 }
+
+TEST_CASE("an HDL-64E of the first kind, with three upper blocks to a lower one, is refused") {
+  TemporaryFolder folder;
+  const std::string file = write_text(folder.path() + "/db.yaml", calibration());
+  PcapWriter pcap(folder.path() + "/a.pcap");
+  ByteVector first = packet(0, 0, 1000);
+  for (std::size_t block = 0; block < 12; ++block) first[100 * block + 1] = block % 4 == 3 ? 0xDD : 0xEE;
+  pcap.add(frame(first));
+  const std::string error = open_error("velodyne:" + pcap.write() + "?model=HDL-64E&calibration=" + file);
+  INFO(error);
+  CHECK(error.find("an HDL-64E S1, which can't be read") != std::string::npos);
+}

@@ -1,6 +1,8 @@
 // Velodyne packets built by hand: one laser at a known place, turns, times within the hour.
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <fstream>
 
 #include "services/ingest/hour_clock.hpp"
 #include "services/ingest/velodyne_decoder.hpp"
@@ -274,6 +276,7 @@ TEST_CASE("packets of another model are refused, naming what they are") {
 
 TEST_CASE("block flags prove a model whatever the byte says; a return mode that is not known is refused") {
   check_refused(flagged(turn(1), 4), "VLP-16", "a VLS-128, blocks BBFF, but model byte 0x22");
+  CHECK(refusal(flagged(turn(1), 4), "VLP-16").find("model_byte=") == std::string::npos);  // would not help
   check_refused(turn(1, 0, 0x3A), "VLP-16", "return mode 0x3A, neither 0x37, 0x38 nor 0x39");
   check_refused(turn(1, 0, 0x00), "VLP-16", "return mode 0x00, neither 0x37, 0x38 nor 0x39");
 }
@@ -361,4 +364,35 @@ TEST_CASE("Puck Hi-Res: a VLP-16 whose lasers are 1.33 degrees apart") {
   check_polar(one_return("Puck-Hi-Res", {9000, 0, 5000}, 0, 0x24), 10, 90, -10);
   check_polar(one_return("Puck-Hi-Res", {1000, 31, 5000}, 40, 0x24), 10,
               10 + 0.4 * (55.296 + 34.56) / 110.592, 10);
+}
+
+TEST_CASE("VLP-32C: the table is that of a cloud that another decoder made") {
+  const auto data = recordings();
+  if (!data) return;
+  std::ifstream file(*data + "/rellis_offroad/vlp32.bin", std::ios::binary);
+  std::vector<float> p(4);
+  const auto& lasers = find_velodyne_model("VLP-32C")->lasers;
+  std::vector<int> returns(32);
+  std::size_t last = 31;
+  double firing_deg = 0;
+  while (file.read(reinterpret_cast<char*>(p.data()), 16)) {
+    const double range = std::hypot(p[0], p[1], p[2]);
+    if (range < 0.5) continue;
+    const double vertical = std::asin(p[2] / range) / kRadians;
+    const auto laser = static_cast<std::size_t>(
+        std::min_element(lasers.begin(), lasers.end(),
+                         [&](const VelodyneLaser& a, const VelodyneLaser& b) {
+                           return std::abs(a.vertical_deg - vertical) < std::abs(b.vertical_deg - vertical);
+                         }) -
+        lasers.begin());
+    CHECK(lasers[laser].vertical_deg == Approx(vertical).margin(1e-3));
+    CHECK(std::remainder(range, 0.004) == Approx(0).margin(1e-4));
+    // Points are in the order of the table, and that decoder leaves the azimuth of a firing alone.
+    const double turned_deg = std::atan2(-p[1], p[0]) / kRadians - lasers[laser].azimuth_deg;
+    if (laser > last) CHECK(std::remainder(turned_deg - firing_deg, 360) == Approx(0).margin(1e-3));
+    firing_deg = turned_deg;
+    last = laser;
+    ++returns[laser];
+  }
+  for (const int count : returns) CHECK(count > 200);
 }
