@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "services/ingest/bytes.hpp"
+#include "services/ingest/ouster_mode.hpp"
 
 namespace gvom::ingest {
 namespace {
@@ -15,8 +16,6 @@ constexpr int kMaxFramesLost = 4;  // a longer gap is silence, not loss
 constexpr double kMostFramesPerSecond = 20;
 constexpr std::uint64_t kMaxTimestampNs = std::uint64_t{1} << 62;
 constexpr std::uint64_t kMaxRepeatNs = 1'000'000'000;
-constexpr double kEncoderTurn = 90112;
-constexpr double kMostColumnsOff = 1.4;  // modes differ by factors of 2
 
 /// The pixels of one column, with their ranges read by `range_mm`. Pixels without a return leave nothing;
 /// the write is unconditional and only the count depends on the range, so that nothing mispredicts.
@@ -50,36 +49,8 @@ OusterDecoder::OusterDecoder(OusterMetadata metadata, const SourceOptions& optio
 }
 
 bool OusterDecoder::recognises(const Packet& packet) const {
-  return packet.size == metadata_.packet_size() && other_columns(packet.data) == 0;
-}
-
-/// How many columns a turn has, if the packet's own columns prove it to be another number than the
-/// metadata's; else 0. The encoder's count (legacy) tells it, the columns' distance in time where the rate of
-/// turns is known, and columns beyond the frame, if all are.
-int OusterDecoder::other_columns(const std::uint8_t* packet) const {
-  std::optional<OusterColumn> first, last;
-  const std::uint8_t* bytes = packet + metadata_.layout.packet_header;
-  for (int i = 0; i < metadata_.columns_per_packet; ++i) {
-    const OusterColumn column = read_ouster_column(metadata_.layout, bytes, metadata_.beams());
-    bytes += metadata_.layout.column_size(metadata_.beams());
-    if (!column.valid) continue;
-    if (!first) first = column;
-    last = column;
-  }
-  const int frame = metadata_.columns_per_frame;
-  if (!first) return 0;
-  if (std::min(first->measurement_id, last->measurement_id) >= frame) return last->measurement_id + 1;
-  const int columns = last->measurement_id - first->measurement_id;
-  if (columns < 1 || last->timestamp_ns <= first->timestamp_ns) return 0;
-  double turn = 0;  // of which the columns are a part
-  if (last->encoder > first->encoder)
-    turn = kEncoderTurn / static_cast<double>(last->encoder - first->encoder);
-  else if (metadata_.turns_per_s > 0)
-    turn = 1e9 / metadata_.turns_per_s / static_cast<double>(last->timestamp_ns - first->timestamp_ns);
-  const double found = turn * columns;
-  return found > kMostColumnsOff * frame || (found > 0 && found * kMostColumnsOff < frame)
-             ? static_cast<int>(std::min(found, 1e6))
-             : 0;
+  KindText why;
+  return packet.size == metadata_.packet_size() && !is_of_other_mode(metadata_, packet.data, why);
 }
 
 std::string OusterDecoder::expects() const {
@@ -106,11 +77,8 @@ bool OusterDecoder::is_of_this_sensor(const Packet& packet) const {
 void OusterDecoder::name_other(const Packet& packet, KindText& out) const {
   out[0] = '\0';
   if (packet.size != metadata_.packet_size()) return;
-  if (const int columns = other_columns(packet.data); columns != 0) {
-    std::snprintf(out.data(), out.size(), "about %d columns a turn, the metadata has %d", columns,
-                  metadata_.columns_per_frame);
-    return;
-  }
+  if (is_of_other_mode(metadata_, packet.data, out)) return;
+  out[0] = '\0';
   if (is_of_this_sensor(packet)) return;
   std::snprintf(out.data(), out.size(), "serial number %llu, the metadata is of %llu",
                 static_cast<unsigned long long>(sensor_id(packet)),
@@ -118,7 +86,9 @@ void OusterDecoder::name_other(const Packet& packet, KindText& out) const {
 }
 
 std::string OusterDecoder::override_advice(const Packet& packet) const {
-  if (other_columns(packet.data) != 0) return "fetch the metadata that belongs to the sensor's mode";
+  KindText why;
+  if (is_of_other_mode(metadata_, packet.data, why))
+    return "fetch the metadata of the mode that the sensor is in";
   return "beam angles are each sensor's own; if the metadata is right for these packets all the same, say so "
          "in "
          "the source: serial=" +
@@ -199,6 +169,7 @@ bool OusterDecoder::decode(const Packet& packet, Sweep& out) {
   if (belongs != Belongs::open_frame) {
     const bool follows = fits && any_frame_;
     if (follows) count_skipped_frames(*frame);
+    if (follows && open_ && turns_sooner(packet.data)) note_short_turn();
     closed = open_ && close(out);
     begin(*frame);
     whole_ = follows;
@@ -206,6 +177,28 @@ bool OusterDecoder::decode(const Packet& packet, Sweep& out) {
   use(packet);
   if (!closed && received_ == metadata_.window_columns()) return close(out);
   return closed;
+}
+
+/// The frame that follows begins where, by the columns' own times, the one before had a good part of its turn
+/// to go: a turn has fewer columns than the metadata says, at the same distance in time.
+bool OusterDecoder::turns_sooner(const std::uint8_t* packet) const {
+  const auto column =
+      read_ouster_column(metadata_.layout, packet + metadata_.layout.packet_header, metadata_.beams());
+  if (metadata_.turns_per_s <= 0 || !column.valid || highest_ < 0) return false;
+  const double to_go = metadata_.columns_per_frame - highest_ + column.measurement_id;
+  const double gone_ns = static_cast<double>(column.timestamp_ns) - static_cast<double>(newest_ns_);
+  const double gone = gone_ns * 1e-9 * metadata_.turns_per_s * metadata_.columns_per_frame;
+  return to_go > metadata_.columns_per_frame / 4.0 && gone > 0 && gone < to_go / 2;
+}
+
+/// Until a turn goes on beyond it.
+void OusterDecoder::note_short_turn() {
+  short_turn_ = highest_ + 1;
+  if (warned_of_mode_) return;
+  warned_of_mode_ = true;
+  state_.warnings.push_back("turns end with column " + std::to_string(highest_) + ", the metadata has " +
+                            std::to_string(metadata_.columns_per_frame) +
+                            ": fetch the metadata of the mode that the sensor is in; nothing is used");
 }
 
 bool OusterDecoder::finish(Sweep& out) {
@@ -232,6 +225,12 @@ bool OusterDecoder::close(Sweep& out) {
   const int expected = metadata_.window_columns();
   state_.counters.columns += static_cast<std::uint64_t>(received_);
   if (whole_) state_.counters.missing_columns += static_cast<std::uint64_t>(expected - received_);
+  if (highest_ >= short_turn_) short_turn_ = 0;
+  if (short_turn_ > 0) {
+    builder_.discard();
+    ++state_.counters.dropped_sweeps;
+    return false;
+  }
   return builder_.close(static_cast<double>(received_) / expected, received_ >= expected, out);
 }
 

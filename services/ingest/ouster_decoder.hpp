@@ -34,7 +34,8 @@ class OusterDecoder final : public Decoder {
   enum class ColumnState : std::uint8_t { missing, received, outside_window };
   enum class Belongs { open_frame, next_frame, closed_frame, just_completed, nowhere };
 
-  [[nodiscard]] int other_columns(const std::uint8_t* packet) const;
+  [[nodiscard]] bool turns_sooner(const std::uint8_t* packet) const;
+  void note_short_turn();
   [[nodiscard]] std::optional<std::uint16_t> frame_of(const std::uint8_t* packet) const;
   [[nodiscard]] Belongs classify(std::uint16_t frame) const;
   [[nodiscard]] bool is_repeated(const std::uint8_t* packet) const;
@@ -60,6 +61,8 @@ class OusterDecoder final : public Decoder {
   std::uint16_t frame_ = 0;
   bool any_frame_ = false;
   bool open_ = false;
+  int short_turn_ = 0;  // columns of a turn, if that is proven to be fewer than the metadata's
+  bool warned_of_mode_ = false;
   bool whole_ = false;          // the open frame was seen from its beginning
   std::int64_t newest_ns_ = 0;  // newest column of the open frame, or of the one just completed
 };

@@ -93,6 +93,15 @@ void add_velodyne(Seeds& seeds) {
   }
 }
 
+void add_calibration(Seeds& seeds) {
+  std::string text = "num_lasers: 64\ndistance_resolution: 0.002\nlasers:\n";
+  for (int i = 0; i < 64; ++i)
+    text += "- {laser_id: " + std::to_string(i) + ", rot_correction: 0.1, vert_correction: 0." +
+            std::to_string(100 + i) + ", dist_correction: 1.2}\n";
+  seeds.add("calibration", text);
+  seeds.add("calibration", std::string("lasers: [{laser_id: 0, two_pt_correction_available: true}]\n"));
+}
+
 void add_frame(ByteVector& input, const ByteVector& bytes) {
   put_le(input, static_cast<std::uint16_t>(bytes.size()));
   input.push_back(1);
@@ -194,6 +203,7 @@ int main(int argc, char** argv) {
   Seeds seeds(argv[1]);
   add_ouster(seeds);
   add_velodyne(seeds);
+  add_calibration(seeds);
   add_captures(seeds);
   add_clouds(seeds);
   add_texts(seeds);

@@ -23,11 +23,12 @@ struct OusterSensor {
   std::uint64_t serial = 0;  ///< 0: neither the metadata nor its packets tell it.
   std::string mode;          ///< lidar_mode; empty: the metadata has none.
   int column_ns = 1'000'000;
+  int frame_ns = 100'000'000;
   int encoder_step = 0;  ///< LEGACY: the encoder's count from column to column.
 
   /// The time of a column in its packets.
   [[nodiscard]] std::int64_t column_time_ns(int frame, int id) const {
-    return 1'000'000'000LL + frame * 100'000'000LL + std::int64_t{id} * column_ns;
+    return 1'000'000'000LL + std::int64_t{frame} * frame_ns + std::int64_t{id} * column_ns;
   }
   [[nodiscard]] std::string json() const {
     return R"({"beam_altitude_angles": )" + altitudes + R"(, "beam_azimuth_angles": )" + azimuths +

@@ -327,20 +327,42 @@ TEST_CASE(
   OusterSensor twice;
   twice.encoder_step = 90112 / 32;
   Stream encoder(twice);
-  CHECK(encoder.whole_frame(1).refusal(meta).find("about 32 columns a turn, the metadata has 16") !=
+  CHECK(encoder.whole_frame(1).refusal(meta).find("32 columns a turn, the metadata has 16") !=
         std::string::npos);
 
   OusterSensor timed = with_serial(5);
   timed.mode = "16x10";
   timed.column_ns = 100'000'000 / 8;
   Stream half(timed);
-  CHECK(half.whole_frame(1).refusal(timed).find("about 8 columns a turn, the metadata has 16") !=
+  CHECK(half.whole_frame(1).refusal(timed).find("a column each 12500 us, 6250 in the metadata's mode") !=
         std::string::npos);
   timed.column_ns = 100'000'000 / 16;
   CHECK(Stream(timed).whole_frame(1).play().size() == 1);
 
   Stream beyond(with_serial(5));
   beyond.packet(1, 16).packet(1, 20);
-  CHECK(beyond.refusal(with_serial(5)).find("about 20 columns a turn, the metadata has 16") !=
-        std::string::npos);
+  CHECK(beyond.refusal(with_serial(5)).find("column 19, the metadata has 16 a turn") != std::string::npos);
+}
+
+TEST_CASE("turns of half the columns in half the time are not mapped as halves of a turn") {
+  OusterSensor sensor = with_serial(5);
+  sensor.mode = "16x10";
+  sensor.column_ns = 100'000'000 / 16;
+  sensor.frame_ns = 50'000'000;  // of 8 columns
+  Stream stream(sensor);
+  for (int frame = 1; frame <= 6; ++frame) stream.packet(frame, 0).packet(frame, 4);
+  CHECK(stream.play(0.6).empty());
+  Stream half(sensor);
+  for (int frame = 1; frame <= 6; ++frame) half.packet(frame, 0).packet(frame, 4);
+  half.play(0.5);
+  CHECK(half.counters().dropped_sweeps == 6);
+  CHECK(half.counters().sweeps == 0);
+  REQUIRE(half.warnings().size() == 1);
+  CHECK(half.warnings()[0].find("turns end with column 7, the metadata has 16") == 0);
+
+  OusterSensor lossy = sensor;  // whole turns, of which the second half is lost
+  lossy.frame_ns = 100'000'000;
+  Stream lost(lossy);
+  for (int frame = 1; frame <= 6; ++frame) lost.packet(frame, 0).packet(frame, 4);
+  CHECK(lost.play(0.5).size() == 6);
 }

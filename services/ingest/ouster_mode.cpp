@@ -1,0 +1,61 @@
+#include "services/ingest/ouster_mode.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+
+namespace gvom::ingest {
+namespace {
+
+constexpr double kEncoderTurn = 90112;
+constexpr double kMostOff = 1.4;  // modes differ by factors of 2
+
+struct Columns {
+  OusterColumn first, last;
+};
+
+/// The packet's first and last valid column.
+std::optional<Columns> valid_columns(const OusterMetadata& metadata, const std::uint8_t* packet) {
+  std::optional<Columns> found;
+  const std::uint8_t* bytes = packet + metadata.layout.packet_header;
+  for (int i = 0; i < metadata.columns_per_packet; ++i) {
+    const OusterColumn column = read_ouster_column(metadata.layout, bytes, metadata.beams());
+    bytes += metadata.layout.column_size(metadata.beams());
+    if (!column.valid) continue;
+    if (!found) found = Columns{column, column};
+    found->last = column;
+  }
+  return found;
+}
+
+bool differs(double a, double b) {
+  return a > kMostOff * b || b > kMostOff * a;
+}
+
+}  // namespace
+
+bool is_of_other_mode(const OusterMetadata& metadata, const std::uint8_t* packet, KindText& why) {
+  const auto found = valid_columns(metadata, packet);
+  if (!found) return false;
+  const auto& [first, last] = *found;
+  const int turn = metadata.columns_per_frame;
+  if (std::min(first.measurement_id, last.measurement_id) >= turn) {
+    std::snprintf(why.data(), why.size(), "column %d, the metadata has %d a turn", last.measurement_id, turn);
+    return true;
+  }
+  const int columns = last.measurement_id - first.measurement_id;
+  if (columns < 1 || last.timestamp_ns <= first.timestamp_ns) return false;
+  if (last.encoder > first.encoder) {  // LEGACY: it tells the angle itself
+    const double encoded = columns * kEncoderTurn / (last.encoder - first.encoder);
+    std::snprintf(why.data(), why.size(), "%.0f columns a turn, the metadata has %d", encoded, turn);
+    return differs(encoded, turn);
+  }
+  if (metadata.turns_per_s <= 0) return false;
+  const double expected_us = 1e6 / (metadata.turns_per_s * turn);
+  const double column_us = static_cast<double>(last.timestamp_ns - first.timestamp_ns) * 1e-3 / columns;
+  std::snprintf(why.data(), why.size(), "a column each %.0f us, %.0f in the metadata's mode", column_us,
+                expected_us);
+  return differs(column_us, expected_us);
+}
+
+}  // namespace gvom::ingest
