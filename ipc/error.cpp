@@ -12,8 +12,6 @@ const char* to_string(ErrorKind kind) {
       return "in_use";
     case ErrorKind::denied:
       return "denied";
-    case ErrorKind::incompatible:
-      return "incompatible";
     case ErrorKind::exhausted:
       return "exhausted";
     case ErrorKind::too_large:

@@ -131,7 +131,7 @@ enum class HealthState : std::uint32_t { starting = 0, ok = 1, degraded = 2, fai
 struct Health {
   static constexpr MessageType kType = MessageType::health;
   static constexpr std::uint16_t kVersion = 3;
-  static constexpr int kMaxCounters = 40;
+  static constexpr int kMaxCounters = 56;
   static constexpr int kMaxStages = 8;
   MessageHeader header;
   char process[2 * kNameLength];  // runtime name, e.g. "gvom-ingest-top"

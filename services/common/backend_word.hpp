@@ -1,4 +1,4 @@
-// The words of configuration and command line for a back end.
+// The words of configuration and command line for a back end, and for a clock.
 #pragma once
 
 #include <optional>
@@ -6,11 +6,15 @@
 #include <utility>
 
 #include "core/backend.hpp"
+#include "services/common/vehicle_config.hpp"
 
 namespace gvom::services {
 
 inline constexpr std::pair<std::string_view, Backend> kBackendWords[] = {
     {"auto", Backend::automatic}, {"cpu", Backend::cpu}, {"cuda", Backend::cuda}};
+
+inline constexpr std::pair<std::string_view, LidarClock> kClockWords[] = {{"sensor", LidarClock::sensor},
+                                                                          {"arrival", LidarClock::arrival}};
 
 inline std::optional<Backend> backend_of(std::string_view word) {
   for (const auto& [known, backend] : kBackendWords)

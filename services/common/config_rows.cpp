@@ -117,6 +117,10 @@ const std::vector<VehicleRow>& vehicle_rows() {
       {{"odometry.max_speed_mps", "m/s", Rule::range, 1, 1000, kOptional,
         "odometry that moves faster from pose to pose has jumped: the map begins anew, live or recorded"},
        [](V& c) -> Field { return &c.odometry.max_speed_mps; }},
+      {{"odometry.max_clock_offset_s", "s", Rule::range, 0.05, 3600, kOptional,
+        "a live lidar whose clock is farther from the odometry's is not mapped; odometry that comes late "
+        "counts"},
+       [](V& c) -> Field { return &c.odometry.max_clock_offset_s; }},
   };
   return rows;
 }
@@ -149,6 +153,12 @@ const std::vector<LidarRow>& lidar_rows() {
       {{"max_returns", "returns", Rule::range, 1, 4194304, kOptional,
         "room for one sweep; more are dropped and counted"},
        [](L& c) -> Field { return &c.max_returns; }},
+      {{"clock", "", Rule::clock, 0, 0, kOptional,
+        "of its stamps: sensor's own, or by the arrival of its packets, smoothed to the sensor's rate (Unix "
+        "time)"},
+       [](L& c) -> Field { return &c.clock; }},
+      {{"clock_offset_s", "s", Rule::range, -4e9, 4e9, kOptional, "added to its stamps"},
+       [](L& c) -> Field { return &c.clock_offset_s; }},
       {{"backend", "", Rule::choice, 0, 0, kOptional,
         "what voxelizes; the CPU keeps up with one lidar, and a CUDA context costs each process several "
         "hundred MB of GPU memory"},

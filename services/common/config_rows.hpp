@@ -17,7 +17,7 @@ struct BoxCorner {
   Eigen::Vector3d Box::*corner;
 };
 
-using Field = std::variant<double*, int*, std::string*, Backend*, BoxCorner>;
+using Field = std::variant<double*, int*, std::string*, Backend*, LidarClock*, BoxCorner>;
 
 enum class Rule {
   range,          ///< min .. max
@@ -26,7 +26,8 @@ enum class Rule {
   odd,            ///< min .. max
   identifier,     ///< [a-z0-9_], 1 to 31 characters.
   text,           ///< One line of any text.
-  choice,         ///< One of the field's words.
+  choice,         ///< One of a back end's words.
+  clock,          ///< One of a clock's words.
   corner,         ///< A list [x, y, z], each in min .. max.
 };
 

@@ -83,6 +83,15 @@ bool assign_choice(const YAML::Node& node, Backend& out) {
   return backend.has_value();
 }
 
+bool assign_clock(const YAML::Node& node, LidarClock& out) {
+  for (const auto& [word, clock] : kClockWords) {
+    if (!node.IsScalar() || node.Scalar() != word) continue;
+    out = clock;
+    return true;
+  }
+  return false;
+}
+
 bool assign_corner(const RowInfo& row, const YAML::Node& node, const BoxCorner& out) {
   if (!node.IsSequence() || node.size() != 3) return false;
   Eigen::Vector3d corner;
@@ -104,6 +113,7 @@ struct Assign {
   bool operator()(int* out) const { return assign_integer(row, node, *out); }
   bool operator()(std::string* out) const { return assign_text(row, node, *out); }
   bool operator()(Backend* out) const { return assign_choice(node, *out); }
+  bool operator()(LidarClock* out) const { return assign_clock(node, *out); }
   bool operator()(const BoxCorner& out) const { return assign_corner(row, node, out); }
 };
 
@@ -117,9 +127,10 @@ std::string quoted(const std::string& text) {
   return result + "'";
 }
 
-std::string choices() {
+template <class Words>
+std::string choices(const Words& words) {
   std::string text;
-  for (const auto& choice : kBackendWords) text.append(text.empty() ? "" : ", ").append(choice.first);
+  for (const auto& choice : words) text.append(text.empty() ? "" : ", ").append(choice.first);
   return text;
 }
 
@@ -128,6 +139,11 @@ struct ValueText {
   std::string operator()(const int* value) const { return std::to_string(*value); }
   std::string operator()(const std::string* value) const { return quoted(*value); }
   std::string operator()(const Backend* value) const { return std::string(word_of(*value)); }
+  std::string operator()(const LidarClock* value) const {
+    for (const auto& [word, clock] : kClockWords)
+      if (clock == *value) return std::string(word);
+    return {};
+  }
   std::string operator()(const BoxCorner& value) const {
     if (!value.box->has_value()) return {};
     const Eigen::Vector3d& corner = (**value.box).*value.corner;
@@ -158,7 +174,9 @@ std::string range_text(const RowInfo& row) {
     case Rule::identifier:
       return "[a-z0-9_], 1 to 31 characters";
     case Rule::choice:
-      return choices();
+      return choices(kBackendWords);
+    case Rule::clock:
+      return choices(kClockWords);
     case Rule::text:
       break;
   }
@@ -172,6 +190,7 @@ std::string expected_text(const RowInfo& row, const Field& field) {
     case Rule::text:
       return "one line of text";
     case Rule::choice:
+    case Rule::clock:
       return "one of " + range_text(row);
     case Rule::corner:
       return "a list [x, y, z] of numbers in " + range_text(row);

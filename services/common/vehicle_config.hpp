@@ -20,15 +20,23 @@ struct Extrinsic {
   double yaw_rad = 0.0;
 };
 
+/// What a lidar's stamps are made of.
+enum class LidarClock {
+  sensor,   ///< The sensor's own, as its packets say.
+  arrival,  ///< When its packets came, smoothed to the sensor's rate: Unix time.
+};
+
 /// One lidar, `lidars.NAME.*`.
 struct LidarConfig {
   std::string name;        ///< The key under `lidars`: [a-z0-9_], at most 31 characters.
   std::string source;      ///< Source URI, e.g. `ouster-udp:7502?meta=FILE`; may be empty (given by --set).
   Extrinsic extrinsic;     ///< T_base_sensor.{x,y,z,roll,pitch,yaw}, all six required.
   LidarGeometry geometry;  ///< T_base_sensor (made of `extrinsic`), min_range_m, max_range_m.
-  double min_sweep_fraction = 0.5;  ///< Sweeps with less of their columns are dropped, 0 .. 1.
-  int max_returns = 262144;         ///< Room for one sweep; more are dropped and counted, 1 .. 4194304.
-  Backend backend = Backend::cpu;   ///< What voxelizes. Each process on a GPU takes a context's memory there.
+  double min_sweep_fraction = 0.5;        ///< Sweeps with less of their columns are dropped, 0 .. 1.
+  int max_returns = 262144;               ///< Room for one sweep; more are dropped and counted, 1 .. 4194304.
+  LidarClock clock = LidarClock::sensor;  ///< `arrival` needs packets.
+  double clock_offset_s = 0.0;            ///< Added to its stamps, -4e9 .. 4e9.
+  Backend backend = Backend::cpu;  ///< What voxelizes. Each process on a GPU takes a context's memory there.
 };
 
 /// `odometry.*`.
@@ -39,6 +47,8 @@ struct OdometryConfig {
   // sensors would have given.
   double max_gap_s = 0.5;       ///< Between two poses; a sweep in a longer one is not mapped, 0.05 .. 60.
   double max_speed_mps = 40.0;  ///< Faster from pose to pose is a jump: the map begins anew, 1 .. 1000.
+  double max_clock_offset_s =
+      0.25;  ///< Live: farther apart, a lidar's clock is not odometry's, 0.05 .. 3600.
 };
 
 /// `fusion.*`.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "core/sweep.hpp"
@@ -43,6 +44,10 @@ class Decoder {
 
   /// Uses one packet. True if it closed a sweep, which is then in `out`.
   virtual bool decode(const Packet& packet, Sweep& out) = 0;
+
+  /// The newest time, as the sensor tells it, in the packet that decode() was given last; nothing if it used
+  /// none of it.
+  [[nodiscard]] virtual std::optional<std::int64_t> packet_time_ns() const = 0;
 
   /// Closes the open sweep at the end of a recording. True if `out` holds it.
   virtual bool finish(Sweep& out) = 0;

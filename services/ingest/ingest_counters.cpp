@@ -28,12 +28,14 @@ void IngestCounters::take(const OdometryCounts& odometry, const SweepLosses& los
   not_finite_poses = odometry.not_finite;
   not_newer_poses = odometry.not_newer;
   old_epoch_poses = odometry.old_epoch;
+  refused_poses = odometry.refused;
   odometry_gaps = odometry.gaps;
   odometry_jumps = odometry.jumps;
   before_odometry = losses.of(SweepLoss::before_odometry).count;
   after_odometry = losses.of(SweepLoss::after_odometry).count;
   in_odometry_gap = losses.of(SweepLoss::gap).count;
   across_odometry_jump = losses.of(SweepLoss::jump).count;
+  of_other_clock = losses.of(SweepLoss::clock).count;
   odometry_timeouts = losses.of(SweepLoss::timeout).count;
 }
 

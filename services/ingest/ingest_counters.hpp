@@ -21,6 +21,7 @@ struct IngestCounts : SourceCounters {
   std::uint64_t after_odometry = 0;
   std::uint64_t in_odometry_gap = 0;
   std::uint64_t across_odometry_jump = 0;
+  std::uint64_t of_other_clock = 0;
   std::uint64_t overruns = 0;
   std::uint64_t without_chunk = 0;
   std::uint64_t backend_failures = 0;
@@ -29,6 +30,7 @@ struct IngestCounts : SourceCounters {
   std::uint64_t not_finite_poses = 0;
   std::uint64_t not_newer_poses = 0;
   std::uint64_t old_epoch_poses = 0;
+  std::uint64_t refused_poses = 0;
   std::uint64_t odometry_gaps = 0;
   std::uint64_t odometry_jumps = 0;
   std::uint64_t returns_used = 0;
@@ -57,6 +59,7 @@ inline constexpr CounterRow kIngestCounters[] = {
     {"drop_after_odometry", &IngestCounts::after_odometry, "sweeps left when the replay ended"},
     {"drop_odometry_gap", &IngestCounts::in_odometry_gap, "sweeps that reach into a gap"},
     {"drop_odometry_jump", &IngestCounts::across_odometry_jump, "sweeps that reach across a jump"},
+    {"drop_clock_offset", &IngestCounts::of_other_clock, "sweeps of another clock than the odometry's"},
     {"drop_overrun", &IngestCounts::overruns, "sweeps that the loop was too slow for"},
     {"drop_no_chunk", &IngestCounts::without_chunk, "maps that shared memory had no room for"},
     {"drop_backend_failed", &IngestCounts::backend_failures, "sweeps lost with the back end"},
@@ -67,6 +70,7 @@ inline constexpr CounterRow kIngestCounters[] = {
     {"drop_odometry_not_finite", &IngestCounts::not_finite_poses, "poses that are none"},
     {"drop_odometry_not_newer", &IngestCounts::not_newer_poses, "poses that go back in time"},
     {"drop_odometry_old_epoch", &IngestCounts::old_epoch_poses, "poses of an old epoch"},
+    {"drop_odometry_refused", &IngestCounts::refused_poses, "odometry messages of another version or kind"},
     {"odometry_gaps", &IngestCounts::odometry_gaps, "gaps in the odometry"},
     {"odometry_jumps", &IngestCounts::odometry_jumps, "jumps of the odometry"},
     {"returns_used", &IngestCounts::returns_used, "returns used"},

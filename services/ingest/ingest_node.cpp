@@ -129,7 +129,7 @@ bool IngestNode::map_due_sweeps() {
 
 void IngestNode::drop(const Sweep& sweep, SweepLoss why) {
   losses_.count(why, sweep.stamp_ns);
-  odometry_.note(why, ipc::monotonic_ns());
+  odometry_.note(sweep, why, ipc::monotonic_ns());
   log_drops_(spdlog::level::warn, "a sweep is not mapped: {}", words_of(why));
 }
 
@@ -137,6 +137,7 @@ void IngestNode::map_sweep(const Sweep& sweep) {
   const std::int64_t begin_ns = ipc::monotonic_ns();
   const auto shape = mapper_.count(sweep, odometry_.poses());
   if (!shape) return fail(shape.error().what);
+  losses_.count_placed();
   if (!publish(sweep, *shape, begin_ns)) return;
   ++counters_.mapped_sweeps;
   counters_.add(mapper_.filter_counts());
@@ -233,8 +234,9 @@ std::uint64_t IngestNode::judge(std::int64_t now_ns) {
   const bool through = !reader_.is_live() && odometry_.has_ended();
   const bool stale = !through && now_ns - last_map_ns_ >= 1'000'000'000;
   if (last_map_ns_ == 0) {
-    if (words.empty()) words.add(odometry_.poses().empty() ? "no odometry yet" : "no sweep yet");
-    health_.set_state(ipc::HealthState::starting, words.text());
+    if (words.empty()) describe_start(words);
+    const bool lost = losses_.all() > 0;
+    health_.set_state(lost ? ipc::HealthState::degraded : ipc::HealthState::starting, words.text());
   } else if (stale || !words.empty()) {
     if (words.empty()) words.add(front_ != nullptr ? "no odometry" : "no sweeps");
     health_.set_state(ipc::HealthState::degraded, words.text());
@@ -242,6 +244,16 @@ std::uint64_t IngestNode::judge(std::int64_t now_ns) {
     health_.set_state(ipc::HealthState::ok);
   }
   return faults;
+}
+
+void IngestNode::describe_start(services::Words& words) const {
+  if (odometry_.poses().empty()) return words.add("no odometry yet");
+  if (front_ != nullptr && !reader_.is_live())
+    return words.add("no sweep mapped yet: the odometry has come to %.1f s, the next sweep is of %.1f s",
+                     static_cast<double>(odometry_stamp_ns()) * 1e-9,
+                     static_cast<double>(front_->stamp_ns) * 1e-9);
+  const auto lost = explain(losses_, odometry_);
+  words.add("%s", lost.empty() ? "no sweep yet" : lost.front().c_str());
 }
 
 void IngestNode::send_health(std::int64_t now_ns) {

@@ -57,6 +57,7 @@ class IngestNode {
 
  private:
   void take_odometry();
+  void take_refusals();
   void begin_epoch();
   void say(Taken taken, std::uint64_t sequence);
   /// The oldest sweep, which is ours until it is mapped or dropped; null if there is none.
@@ -77,6 +78,8 @@ class IngestNode {
   /// The state for Health, in words where it is not ok. Returns the faults that it names.
   std::uint64_t judge(std::int64_t now_ns);
   void send_health(std::int64_t now_ns);
+  /// Why no sweep was mapped so far.
+  void describe_start(services::Words& words) const;
 
   const services::LidarConfig& lidar_;
   Bus& bus_;

@@ -20,6 +20,13 @@ void IngestNode::take_odometry() {
     if (taken == Taken::end) break;
     if (!odometry_.poses().empty()) reader_.set_time_hint(odometry_.poses().newest_ns());
   }
+  take_refusals();
+}
+
+void IngestNode::take_refusals() {
+  odometry_.note_refused(bus_.odometry.counters().refused(), bus_.odometry.port().newest_refusal(),
+                         ipc::monotonic_ns());
+  while (const auto refusal = bus_.odometry.new_refusal()) spdlog::error("{}", *refusal);
 }
 
 void IngestNode::say(Taken taken, std::uint64_t sequence) {

@@ -19,7 +19,18 @@ std::string key_of(SweepLoss why, const services::OdometryConfig& config) {
   if (why == SweepLoss::gap) return fmt::format(" (odometry.max_gap_s is {})", config.max_gap_s);
   if (why == SweepLoss::jump) return fmt::format(" (odometry.max_speed_mps is {})", config.max_speed_mps);
   if (why == SweepLoss::timeout) return fmt::format(" (odometry.timeout_s is {})", config.timeout_s);
+  if (why == SweepLoss::clock)
+    return fmt::format(" (odometry.max_clock_offset_s is {})", config.max_clock_offset_s);
   return {};
+}
+
+/// If no sweep met the odometry: whose clock it may be.
+std::string guess(const SweepLosses& losses, const TimeSpan& odometry) {
+  const SweepLosses::Of& before = losses.of(SweepLoss::before_odometry);
+  const SweepLosses::Of& after = losses.of(SweepLoss::after_odometry);
+  if (losses.placed() != 0 || (before.count == 0) == (after.count == 0)) return {};
+  const std::string words = guess_clock(before.count != 0 ? before.stamps : after.stamps, odometry);
+  return words.empty() ? words : " (" + words + ")";
 }
 
 }  // namespace
@@ -36,6 +47,8 @@ const char* words_of(SweepLoss why) {
       return "across a jump of the odometry";
     case SweepLoss::timeout:
       return "no odometry in time";
+    case SweepLoss::clock:
+      return "of another clock than the odometry's";
     case SweepLoss::count:
       break;
   }
@@ -45,13 +58,14 @@ const char* words_of(SweepLoss why) {
 std::vector<std::string> explain(const SweepLosses& losses, const OdometryIntake& odometry) {
   const std::string odometry_span =
       odometry.span() ? "odometry spans " + span_text(*odometry.span()) : "no odometry came";
+  const std::string clock = odometry.span() ? guess(losses, *odometry.span()) : std::string();
   std::vector<std::string> lines;
   for (std::size_t i = 0; i < static_cast<std::size_t>(SweepLoss::count); ++i) {
     const auto why = static_cast<SweepLoss>(i);
     const SweepLosses::Of& of = losses.of(why);
     if (of.count == 0) continue;
-    lines.push_back(fmt::format("{} sweeps not mapped: {}{}: {}, these sweeps {}", of.count, words_of(why),
-                                key_of(why, odometry.config()), odometry_span, span_text(of.stamps)));
+    lines.push_back(fmt::format("{} sweeps not mapped: {}{}: {}, sweeps {}{}", of.count, words_of(why),
+                                key_of(why, odometry.config()), odometry_span, span_text(of.stamps), clock));
   }
   return lines;
 }

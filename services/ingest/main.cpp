@@ -9,7 +9,7 @@
 #include "services/common/lifecycle.hpp"
 #include "services/common/log.hpp"
 #include "services/ingest/ingest_node.hpp"
-#include "services/ingest/source.hpp"
+#include "services/ingest/source_options.hpp"
 
 namespace {
 
@@ -18,10 +18,9 @@ using services::ExitCode;
 
 ExitCode run(const services::VehicleConfig& config, const services::LidarConfig& lidar,
              services::Lifecycle& lifecycle) {
-  auto source = ingest::open_source(lidar.source,
-                                    {lidar.min_sweep_fraction, static_cast<std::size_t>(lidar.max_returns)});
+  auto source = ingest::open_source(lidar.source, ingest::source_options(lidar));
   if (!source) {
-    spdlog::error("{}", source.error().what);
+    spdlog::error("lidar {}: {}", lidar.name, source.error().what);
     return source.error().kind == ingest::SourceError::Kind::unavailable ? ExitCode::unavailable
                                                                          : ExitCode::bad_data;
   }

@@ -1,5 +1,8 @@
 #include "services/ingest/odometry_intake.hpp"
 
+#include <algorithm>
+#include <cstdlib>
+
 namespace gvom::ingest {
 
 namespace {
@@ -10,6 +13,16 @@ double seconds(std::int64_t duration_ns) {
 
 std::int64_t nanoseconds(double duration_s) {
   return static_cast<std::int64_t>(duration_s * 1e9);
+}
+
+/// A clock that seems to be wrong is looked at again for so long.
+constexpr std::int64_t kClockPatience_ns = 300'000'000;
+
+/// The sensor's time when its last packet came, with a return in it or not.
+std::int64_t newest_ns(const Sweep& sweep) {
+  std::int64_t newest_ns = sweep.stamp_ns;
+  for (const std::int64_t time_ns : sweep.times_ns) newest_ns = std::max(newest_ns, time_ns);
+  return newest_ns;
 }
 
 SweepLoss loss_of(Reach reach) {
@@ -26,6 +39,7 @@ void OdometryIntake::begin_epoch(std::uint64_t epoch) {
   epoch_ = epoch;
   poses_.clear();
   judge_.begin_anew();
+  clock_.forget();
   span_.reset();
   ended_ = false;
 }
@@ -45,8 +59,23 @@ Taken OdometryIntake::take(const OdometryNews& news, std::int64_t now_ns) {
 
 Taken OdometryIntake::take_pose(const StampedPose& pose, std::int64_t now_ns) {
   const PoseJudge::Verdict verdict = judge_.judge(pose);
-  Taken taken = Taken::used;
-  PoseLink link = PoseLink::steady;
+  const Taken taken = note_step(verdict, now_ns);
+  if (taken == Taken::not_a_pose || taken == Taken::backwards) return taken;
+  if (taken == Taken::gap || taken == Taken::anew) clock_.forget();
+  if (taken == Taken::anew) {
+    poses_.clear();
+    span_.reset();
+  }
+  poses_.add(pose, taken == Taken::gap    ? PoseLink::gap
+                   : taken == Taken::jump ? PoseLink::jump
+                                          : PoseLink::steady);
+  clock_.take_odometry(pose.stamp_ns, now_ns);
+  span_ = TimeSpan{span_ ? span_->first_ns : pose.stamp_ns, pose.stamp_ns};
+  return taken;
+}
+
+/// Counts and tells what is not steady.
+Taken OdometryIntake::note_step(const PoseJudge::Verdict& verdict, std::int64_t now_ns) {
   switch (verdict.step) {
     case PoseStep::steady:
       break;
@@ -54,39 +83,38 @@ Taken OdometryIntake::take_pose(const StampedPose& pose, std::int64_t now_ns) {
       // Told for as long as the next one may take to show, so that odometry that is too slow stays told.
       seen_.see(OdometryFault::gap, verdict.value, now_ns,
                 Sightings<OdometryFault>::kHold_ns + nanoseconds(verdict.value));
-      ++counts_.gaps;
-      link = PoseLink::gap;
-      taken = Taken::gap;
-      break;
+      return ++counts_.gaps, Taken::gap;
     case PoseStep::jump:
       seen_.see(OdometryFault::jump, verdict.value, now_ns);
-      ++counts_.jumps;
-      link = PoseLink::jump;
-      taken = Taken::jump;
-      break;
+      return ++counts_.jumps, Taken::jump;
     case PoseStep::anew:
       seen_.see(OdometryFault::backwards, 0, now_ns);
-      ++counts_.gaps;
-      poses_.clear();
-      span_.reset();
-      taken = Taken::anew;
-      break;
+      return ++counts_.gaps, Taken::anew;
     case PoseStep::not_a_pose:
       seen_.see(OdometryFault::not_finite, 0, now_ns);
-      ++counts_.not_finite;
-      return Taken::not_a_pose;
+      return ++counts_.not_finite, Taken::not_a_pose;
     case PoseStep::backwards:
       seen_.see(OdometryFault::backwards, 0, now_ns);
-      ++counts_.not_newer;
-      return Taken::backwards;
+      return ++counts_.not_newer, Taken::backwards;
   }
-  poses_.add(pose, link);
-  span_ = TimeSpan{span_ ? span_->first_ns : pose.stamp_ns, pose.stamp_ns};
-  return taken;
+  return Taken::used;
+}
+
+void OdometryIntake::note_refused(std::uint64_t all, const std::string& why, std::int64_t now_ns) {
+  if (all == counts_.refused) return;
+  counts_.refused = all;
+  refusal_ = why;
+  seen_.see(OdometryFault::refused, 0, now_ns);
 }
 
 Placement OdometryIntake::judge(const Sweep& sweep, std::int64_t since_ns, std::int64_t now_ns) const {
   using When = Placement::When;
+  const auto ahead = ahead_ns(sweep);
+  if (ahead && std::llabs(*ahead) > nanoseconds(config_.max_clock_offset_s)) {
+    const std::int64_t patience_ns = std::min(kClockPatience_ns, nanoseconds(config_.timeout_s));
+    if (now_ns - since_ns <= patience_ns) return {When::later};
+    return {When::never, SweepLoss::clock};
+  }
   const bool reached = !poses_.empty() && poses_.newest_ns() >= sweep.stamp_ns;
   const Reach reach = reached ? poses_.reach(span_of(sweep)) : Reach::later;
   if (reach == Reach::covered) return {When::now};
@@ -96,7 +124,17 @@ Placement OdometryIntake::judge(const Sweep& sweep, std::int64_t since_ns, std::
   return {When::later};
 }
 
-void OdometryIntake::note(SweepLoss why, std::int64_t now_ns) {
+/// Nothing if there is nothing to compare with.
+std::optional<std::int64_t> OdometryIntake::ahead_ns(const Sweep& sweep) const {
+  if (!live_ || sweep.received_ns == 0) return std::nullopt;
+  return clock_.ahead_ns(newest_ns(sweep), sweep.received_ns);
+}
+
+void OdometryIntake::note(const Sweep& sweep, SweepLoss why, std::int64_t now_ns) {
+  if (const auto ahead = ahead_ns(sweep); why == SweepLoss::clock && ahead) {
+    seen_.see(OdometryFault::clock, seconds(*ahead), now_ns);
+    clock_guess_ = guess_clock(*ahead, sweep.stamp_ns, sweep.stamp_ns - *ahead);
+  }
   if (why == SweepLoss::timeout) seen_.see(OdometryFault::timeout, 0, now_ns);
 }
 
@@ -111,6 +149,7 @@ std::uint32_t OdometryIntake::faults(std::int64_t now_ns) const {
 
 void OdometryIntake::describe(std::int64_t now_ns, services::Words& words) const {
   const auto has = [&](OdometryFault fault) { return seen_.has(fault, now_ns); };
+  if (has(OdometryFault::clock)) describe_clock(words);
   if (is_silent(now_ns)) words.add("no odometry for %.1f s", seconds(now_ns - came_ns_));
   if (has(OdometryFault::jump))
     words.add("odometry jumped by %.1f m: the map begins anew", seen_.value(OdometryFault::jump));
@@ -123,6 +162,17 @@ void OdometryIntake::describe(std::int64_t now_ns, services::Words& words) const
   if (has(OdometryFault::backwards)) words.add("odometry goes back in time: not used");
   if (has(OdometryFault::not_finite)) words.add("odometry is not a pose: not used");
   if (has(OdometryFault::old_epoch)) words.add("odometry of an old epoch: not used");
+  if (has(OdometryFault::refused)) words.add("%s", refusal_.c_str());
+}
+
+void OdometryIntake::describe_clock(services::Words& words) const {
+  const double ahead_s = seen_.value(OdometryFault::clock);
+  const bool known = *clock_guess_ != '\0';
+  words.add(
+      "the lidar's clock is %.1f s %s the odometry's%s%s%s: nothing is mapped beyond "
+      "odometry.max_clock_offset_s %g",
+      std::abs(ahead_s), ahead_s < 0 ? "behind" : "ahead of", known ? " (" : "", clock_guess_,
+      known ? ")" : "", config_.max_clock_offset_s);
 }
 
 }  // namespace gvom::ingest

@@ -4,11 +4,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "core/odometry_buffer.hpp"
 #include "core/sweep.hpp"
 #include "services/common/vehicle_config.hpp"
 #include "services/common/words.hpp"
+#include "services/ingest/clock_check.hpp"
 #include "services/ingest/pose_judge.hpp"
 #include "services/ingest/sightings.hpp"
 #include "services/ingest/sweep_losses.hpp"
@@ -31,12 +33,24 @@ struct OdometryCounts {
   std::uint64_t not_finite = 0;
   std::uint64_t not_newer = 0;
   std::uint64_t old_epoch = 0;
+  std::uint64_t refused = 0;  ///< By who took the messages: of another version or kind.
   std::uint64_t gaps = 0;
   std::uint64_t jumps = 0;
 };
 
 /// In the order in which they are told.
-enum class OdometryFault { silence, jump, gap, timeout, backwards, not_finite, old_epoch, count };
+enum class OdometryFault {
+  clock,
+  silence,
+  jump,
+  gap,
+  timeout,
+  backwards,
+  not_finite,
+  old_epoch,
+  refused,
+  count
+};
 
 /// Whether a sweep can be placed, and if never, why.
 struct Placement {
@@ -57,12 +71,16 @@ class OdometryIntake {
   /// A message that came at `now_ns`. One of a higher epoch begins anew: no pose from before it is kept.
   Taken take(const OdometryNews& news, std::int64_t now_ns);
 
-  /// A live sweep waits for odometry for `odometry.timeout_s`, a recorded one until the odometry ends.
+  /// Messages that could not be read, so many in all, and why the newest could not.
+  void note_refused(std::uint64_t all, const std::string& why, std::int64_t now_ns);
+
+  /// A live sweep waits for odometry for `odometry.timeout_s`, a recorded one until the odometry ends. A live
+  /// one whose clock seems to be another than the odometry's waits a moment for odometry that says otherwise.
   /// @param since_ns since when it is there
   [[nodiscard]] Placement judge(const Sweep& sweep, std::int64_t since_ns, std::int64_t now_ns) const;
 
-  /// Tells of a sweep that never could be placed.
-  void note(SweepLoss why, std::int64_t now_ns);
+  /// Tells of a sweep that can never be placed.
+  void note(const Sweep& sweep, SweepLoss why, std::int64_t now_ns);
 
   [[nodiscard]] const OdometryBuffer& poses() const { return poses_; }
   [[nodiscard]] const OdometryCounts& counts() const { return counts_; }
@@ -81,7 +99,10 @@ class OdometryIntake {
  private:
   void begin_epoch(std::uint64_t epoch);
   Taken take_pose(const StampedPose& pose, std::int64_t now_ns);
+  Taken note_step(const PoseJudge::Verdict& verdict, std::int64_t now_ns);
   [[nodiscard]] bool is_silent(std::int64_t now_ns) const;
+  [[nodiscard]] std::optional<std::int64_t> ahead_ns(const Sweep& sweep) const;
+  void describe_clock(services::Words& words) const;
 
   const services::OdometryConfig config_;
   const bool live_;
@@ -89,6 +110,9 @@ class OdometryIntake {
   OdometryBuffer poses_;
   OdometryCounts counts_;
   Sightings<OdometryFault> seen_;
+  ClockCheck clock_;
+  const char* clock_guess_ = "";
+  std::string refusal_;
   std::uint64_t epoch_ = 0;
   bool ended_ = false;
   std::int64_t came_ns_ = 0;

@@ -122,7 +122,8 @@ SourceResult open_packets(const SourceUri& uri, const SourceOptions& options, bo
   if (!decoder) return tl::unexpected(decoder.error());
   auto packets = live ? open_live(uri, *state) : open_recording(uri, **decoder, *state);
   if (!packets) return tl::unexpected(packets.error());
-  return std::make_unique<PacketSweepSource>(std::move(state), std::move(*packets), std::move(*decoder));
+  return std::make_unique<PacketSweepSource>(std::move(state), std::move(*packets), std::move(*decoder),
+                                             options);
 }
 
 SourceResult open_scans(const SourceUri& uri, const SourceOptions& options) {
@@ -160,6 +161,9 @@ tl::expected<std::unique_ptr<Source>, SourceError> open_source(const std::string
   }
   const auto checked = check_options(*uri, scheme->second);
   if (!checked) return tl::unexpected(checked.error());
+  if (uri->scheme == "scans" && options.by_arrival)
+    return tl::unexpected("source '" + text +
+                          "': clock: arrival needs packets; scans have no times of arrival");
   if (uri->scheme == "scans") return open_scans(*uri, options);
   const bool live = uri->scheme == "ouster-udp" || uri->scheme == "velodyne-udp";
   return open_packets(*uri, options, live);

@@ -156,6 +156,7 @@ bool OusterDecoder::count_stray(Belongs belongs, const std::uint8_t* packet) {
 }
 
 bool OusterDecoder::decode(const Packet& packet, Sweep& out) {
+  packet_time_ns_.reset();
   const auto frame = frame_of(packet.data);
   if (!frame) {
     state_.counters.invalid_columns += static_cast<std::uint64_t>(metadata_.columns_per_packet);
@@ -266,8 +267,10 @@ void OusterDecoder::use_column(const std::uint8_t* bytes, const OusterColumn& co
   columns_[column.measurement_id] = ColumnState::received;
   highest_ = std::max<int>(highest_, column.measurement_id);
   ++received_;
-  newest_ns_ = std::max(newest_ns_, static_cast<std::int64_t>(column.timestamp_ns));
-  const std::uint32_t index = builder_.add_time(static_cast<std::int64_t>(column.timestamp_ns));
+  const auto time_ns = static_cast<std::int64_t>(column.timestamp_ns);
+  newest_ns_ = std::max(newest_ns_, time_ns);
+  packet_time_ns_ = std::max(packet_time_ns_.value_or(time_ns), time_ns);
+  const std::uint32_t index = builder_.add_time(time_ns);
   builder_.append(scratch_.data(),
                   project(bytes + metadata_.layout.column_header, column.measurement_id, index));
 }

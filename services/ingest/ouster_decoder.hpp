@@ -27,6 +27,7 @@ class OusterDecoder final : public Decoder {
   [[nodiscard]] std::uint64_t sensor_id(const Packet& packet) const override;
   [[nodiscard]] double most_packets_per_s() const override;
   bool decode(const Packet& packet, Sweep& out) override;
+  [[nodiscard]] std::optional<std::int64_t> packet_time_ns() const override { return packet_time_ns_; }
   bool finish(Sweep& out) override;
   void reset() override;
 
@@ -65,6 +66,7 @@ class OusterDecoder final : public Decoder {
   bool warned_of_mode_ = false;
   bool whole_ = false;          // the open frame was seen from its beginning
   std::int64_t newest_ns_ = 0;  // newest column of the open frame, or of the one just completed
+  std::optional<std::int64_t> packet_time_ns_;
 };
 
 }  // namespace gvom::ingest

@@ -17,8 +17,14 @@ constexpr std::int64_t kSilenceNs = 1'000'000'000;
 }  // namespace
 
 PacketSweepSource::PacketSweepSource(std::unique_ptr<SourceState> state,
-                                     std::unique_ptr<PacketSource> packets, std::unique_ptr<Decoder> decoder)
-    : state_(std::move(state)), packets_(std::move(packets)), decoder_(std::move(decoder)) {}
+                                     std::unique_ptr<PacketSource> packets, std::unique_ptr<Decoder> decoder,
+                                     const SourceOptions& options)
+    : state_(std::move(state)),
+      packets_(std::move(packets)),
+      decoder_(std::move(decoder)),
+      clock_offset_ns_(options.clock_offset_ns) {
+  if (options.by_arrival) arrival_.emplace();
+}
 
 tl::expected<SourceEvent, std::string> PacketSweepSource::next(Sweep& out,
                                                                std::chrono::milliseconds timeout) {
@@ -32,7 +38,7 @@ tl::expected<SourceEvent, std::string> PacketSweepSource::next(Sweep& out,
     if (!event) error_ = event.error();
     if (!event || *event == PacketEvent::end) return end(out);
     if (*event == PacketEvent::idle) return SourceEvent::kIdle;
-    if (decode(packet, out)) return SourceEvent::kSweep;
+    if (decode(packet, out)) return hand_out(out);
     if (!is_live()) continue;
     const std::int64_t left_ns = deadline_ns - ipc::monotonic_ns();
     if (left_ns < -kMaxOvertimeNs) return SourceEvent::kIdle;
@@ -48,11 +54,24 @@ bool PacketSweepSource::decode(const Packet& packet, Sweep& out) {
     return false;
   }
   const bool of_this_sensor = decoder_->is_of_this_sensor(packet);
-  if (of_this_sensor && is_of_our_sensor(packet)) return decoder_->decode(packet, out);
+  if (of_this_sensor && is_of_our_sensor(packet)) return use(packet, out);
   count_second(packet);
   if (!of_this_sensor) return false;
   // The new sensor's frames must not go into the open sweep of the one before.
   return !sensor_ && decoder_->finish(out);
+}
+
+bool PacketSweepSource::use(const Packet& packet, Sweep& out) {
+  const bool closed = decoder_->decode(packet, out);
+  const auto stamp_ns = decoder_->packet_time_ns();
+  if (arrival_ && stamp_ns) arrival_->take(*stamp_ns, packet.capture_ns);
+  return closed;
+}
+
+SourceEvent PacketSweepSource::hand_out(Sweep& out) const {
+  if (arrival_) arrival_->move(out);
+  shift(out, clock_offset_ns_);
+  return SourceEvent::kSweep;
 }
 
 void PacketSweepSource::count_foreign(const Packet& packet) {
@@ -116,7 +135,7 @@ void PacketSweepSource::warn_if_nothing_fits(std::size_t packet_size) {
 tl::expected<SourceEvent, std::string> PacketSweepSource::end(Sweep& out) {
   if (!ended_ && decoder_->finish(out)) {
     ended_ = true;
-    return SourceEvent::kSweep;
+    return hand_out(out);
   }
   ended_ = true;
   if (!error_) return SourceEvent::kEnd;
@@ -129,6 +148,7 @@ tl::expected<void, std::string> PacketSweepSource::rewind() {
   auto done = packets_->rewind();
   if (!done) return done;
   decoder_->reset();
+  if (arrival_) arrival_.emplace();
   sensor_.reset();
   other_.reset();
   other_sensor_.fits();

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "services/ingest/arrival_clock.hpp"
 #include "services/ingest/decoder.hpp"
 #include "services/ingest/packet.hpp"
 
@@ -13,15 +14,15 @@ namespace gvom::ingest {
 
 class PacketSweepSource final : public Source {
  public:
-  /// `packets` and `decoder` report to `state`.
+  /// `packets` and `decoder` report to `state`. Of `options`, the clock is of this part.
   PacketSweepSource(std::unique_ptr<SourceState> state, std::unique_ptr<PacketSource> packets,
-                    std::unique_ptr<Decoder> decoder);
+                    std::unique_ptr<Decoder> decoder, const SourceOptions& options);
 
   tl::expected<SourceEvent, std::string> next(Sweep& out, std::chrono::milliseconds timeout) override;
   tl::expected<void, std::string> rewind() override;
   [[nodiscard]] bool is_live() const override { return packets_->is_live(); }
   [[nodiscard]] double most_packets_per_s() const override { return decoder_->most_packets_per_s(); }
-  void set_time_hint(std::int64_t stamp_ns) override { decoder_->set_time_hint(stamp_ns); }
+  void set_time_hint(std::int64_t stamp_ns) override { decoder_->set_time_hint(stamp_ns - clock_offset_ns_); }
   [[nodiscard]] const SourceCounters& counters() const override { return state_->counters; }
   [[nodiscard]] const std::vector<std::string>& warnings() const override { return state_->warnings; }
 
@@ -36,6 +37,9 @@ class PacketSweepSource final : public Source {
   };
 
   bool decode(const Packet& packet, Sweep& out);
+  bool use(const Packet& packet, Sweep& out);
+  /// Gives a whole sweep the times that its reader asked for.
+  SourceEvent hand_out(Sweep& out) const;
   void count_foreign(const Packet& packet);
   void count_second(const Packet& packet);
   void warn_of_other(const KindText& kind);
@@ -47,6 +51,8 @@ class PacketSweepSource final : public Source {
   std::unique_ptr<SourceState> state_;
   std::unique_ptr<PacketSource> packets_;
   std::unique_ptr<Decoder> decoder_;
+  std::optional<ArrivalClock> arrival_;
+  std::int64_t clock_offset_ns_;
   std::optional<Sender> sensor_;
   std::optional<Sender> other_;       // who sent the newest packet that was not the sensor's
   std::int64_t heard_ns_ = 0;         // live: when the sensor was last heard of

@@ -12,6 +12,7 @@
 #include <optional>
 #include <utility>
 
+#include "services/ingest/arrival_clock.hpp"
 #include "services/ingest/bytes.hpp"
 
 namespace gvom::ingest {
@@ -45,6 +46,7 @@ ScanSource::ScanSource(std::vector<ScanFile> scans, const SourceOptions& options
                        const Format& format)
     : scans_(std::move(scans)),
       max_returns_(options.max_returns),
+      clock_offset_ns_(options.clock_offset_ns),
       state_(std::move(state)),
       floats_(format.floats.value_or(kMinFloats)),
       floats_asked_(format.floats.has_value()),
@@ -108,6 +110,7 @@ tl::expected<SourceEvent, std::string> ScanSource::next(Sweep& out, std::chrono:
     index_ = scans_.size();
     return tl::unexpected(scan.path + ": " + done.error());
   }
+  shift(out, clock_offset_ns_);
   ++state_.counters.sweeps;
   return SourceEvent::kSweep;
 }

@@ -47,6 +47,7 @@ class ScanSource final : public Source {
 
   std::vector<ScanFile> scans_;
   std::size_t max_returns_;
+  std::int64_t clock_offset_ns_;
   SourceState state_;
   std::size_t index_ = 0;
   std::vector<std::uint8_t> file_;

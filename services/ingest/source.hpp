@@ -57,6 +57,8 @@ enum class SourceEvent {
 struct SourceOptions {
   double min_sweep_fraction = 0.5;
   std::size_t max_returns = 262144;
+  bool by_arrival = false;           ///< Stamps by the arrival of packets: see ArrivalClock.
+  std::int64_t clock_offset_ns = 0;  ///< Added to all stamps.
 };
 
 /// Why a source does not open.

@@ -17,10 +17,11 @@ enum class SweepLoss {
   gap,              ///< It reaches into a gap.
   jump,             ///< It reaches across a jump.
   timeout,          ///< A sensor's: the odometry that it needs did not come in time.
+  clock,            ///< A sensor's: its clock is not the odometry's.
   count
 };
 
-/// Of one lidar.
+/// Of one lidar, beside those that were placed.
 class SweepLosses {
  public:
   struct Of {
@@ -35,7 +36,10 @@ class SweepLosses {
     of.stamps.last_ns = std::max(of.stamps.last_ns, stamp_ns);
   }
 
+  void count_placed() { ++placed_; }
+
   [[nodiscard]] const Of& of(SweepLoss why) const { return of_[static_cast<std::size_t>(why)]; }
+  [[nodiscard]] std::uint64_t placed() const { return placed_; }
   [[nodiscard]] std::uint64_t all() const {
     std::uint64_t all = 0;
     for (const Of& of : of_) all += of.count;
@@ -44,6 +48,7 @@ class SweepLosses {
 
  private:
   std::array<Of, static_cast<std::size_t>(SweepLoss::count)> of_{};
+  std::uint64_t placed_ = 0;
 };
 
 }  // namespace gvom::ingest

@@ -103,6 +103,7 @@ void VelodyneDecoder::forget() {
 }
 
 bool VelodyneDecoder::decode(const Packet& packet, Sweep& out) {
+  packet_time_ns_.reset();
   dual_ = marks_.returns_of(packet.data) == VelodyneReturns::dual;
   const std::int64_t past_hour_ns = std::int64_t{load_le<std::uint32_t>(packet.data + 1200)} * 1000;
   const std::int64_t time_ns = clock_.full_time_ns(past_hour_ns, packet.capture_ns, packet.received_ns);
@@ -152,6 +153,7 @@ bool VelodyneDecoder::use(const Packet& packet, std::int64_t time_ns, bool may_c
   }
   newest_ns_ = std::max(newest_ns_, time_ns);
   packet_times_ns_.push_back(time_ns);
+  packet_time_ns_ = newest_time_ns_;
   builder_.set_received(packet.received_ns);
   return closed;
 }

@@ -29,6 +29,7 @@ class VelodyneDecoder final : public Decoder {
   [[nodiscard]] std::uint64_t sensor_id(const Packet& packet) const override;
   [[nodiscard]] double most_packets_per_s() const override;
   bool decode(const Packet& packet, Sweep& out) override;
+  [[nodiscard]] std::optional<std::int64_t> packet_time_ns() const override { return packet_time_ns_; }
   bool finish(Sweep& out) override;
   void reset() override;
   void set_time_hint(std::int64_t stamp_ns) override { clock_.hint(stamp_ns); }
@@ -88,6 +89,7 @@ class VelodyneDecoder final : public Decoder {
   int received_ = 0;    // shots in the open sweep
   bool whole_ = false;  // a sweep was closed before the open one: it was seen from its beginning
   bool hour_checked_ = false;
+  std::optional<std::int64_t> packet_time_ns_;
 };
 
 }  // namespace gvom::ingest

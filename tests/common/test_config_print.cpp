@@ -38,6 +38,10 @@ class Random {
       const auto& words = services::kBackendWords;
       **backend = words[static_cast<std::size_t>(uniform(0, std::size(words)))].second;
     }
+    if (auto* const* clock = std::get_if<services::LidarClock*>(&field)) {
+      const auto& words = services::kClockWords;
+      **clock = words[static_cast<std::size_t>(uniform(0, std::size(words)))].second;
+    }
   }
 
   double uniform(double min, double max) { return std::uniform_real_distribution<double>(min, max)(engine_); }

@@ -68,8 +68,9 @@ Lab::Lab(const std::vector<std::string>& sets)
   REQUIRE(graph->ingest("rear").says("rear from"));
   board->begin_ns = ipc::monotonic_ns() + 500'000'000;  // odometry first
   odometry_ = std::make_unique<Child>([this] { live_as_odometry(*board); });
-  front_ = std::make_unique<Child>([this] { live_as_sensor(front_port_, board->front, *board); });
-  rear_ = std::make_unique<Child>([this] { live_as_sensor(rear_port_, board->rear, *board); });
+  front_ = std::make_unique<Child>(
+      [this] { live_as_sensor(front_port_, board->front, board->front_ahead_ns, *board); });
+  rear_ = std::make_unique<Child>([this] { live_as_sensor(rear_port_, board->rear, 0, *board); });
   judge_ = std::make_unique<Child>([this] { live_as_judge(*board); });
   for (const char* process : {"gvom-ingest-front", "gvom-ingest-rear", "gvom-fusion"}) {
     INFO(process << ": " << reason(process));

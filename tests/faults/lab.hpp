@@ -42,7 +42,8 @@ struct Board {
   std::atomic<SensorMode> front{SensorMode::well};
   std::atomic<SensorMode> rear{SensorMode::well};
   std::atomic<OdometryMode> odometry{OdometryMode::well};
-  std::atomic<std::int64_t> begin_ns{0};  // CLOCK_MONOTONIC of the drive's time 0
+  std::atomic<std::int64_t> front_ahead_ns{0};  // of the front sensor's clock before the odometry's
+  std::atomic<std::int64_t> begin_ns{0};        // CLOCK_MONOTONIC of the drive's time 0
   // Of the fused maps, all that were published:
   std::atomic<std::uint64_t> maps{0};
   std::atomic<std::uint64_t> wrong_maps{0};   // with hits where the sensor cannot see

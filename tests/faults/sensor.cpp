@@ -51,14 +51,14 @@ class Sender {
 };
 
 ByteVector packet_of(const OusterSensor& sensor, std::int64_t frame, int index, std::uint32_t range_mm,
-                     std::uint8_t serial) {
+                     std::uint8_t serial, std::int64_t ahead_ns) {
   const int per_packet = sensor.columns_per_packet;
   ByteVector packet = plain_packet(sensor, static_cast<int>(frame & 0xFFFF), index * per_packet, range_mm);
   packet[7] = serial;
   const std::size_t column_size = kColumnHeader + kPixel * static_cast<std::size_t>(sensor.beams);
   for (int i = 0; i < per_packet; ++i) {
     const std::int64_t time_ns =
-        kDriveBegin_ns + frame * kFrame_ns + (index * per_packet + i) * kFrame_ns / sensor.columns;
+        kDriveBegin_ns + ahead_ns + frame * kFrame_ns + (index * per_packet + i) * kFrame_ns / sensor.columns;
     std::memcpy(packet.data() + kPacketHeader + static_cast<std::size_t>(i) * column_size, &time_ns,
                 sizeof time_ns);
   }
@@ -68,11 +68,12 @@ ByteVector packet_of(const OusterSensor& sensor, std::int64_t frame, int index, 
 /// Sends one packet in the way that `mode` says.
 class Faulty {
  public:
-  explicit Faulty(std::uint16_t port) : own_(port, 1), other_(port, 2) {}
+  Faulty(std::uint16_t port, const std::atomic<std::int64_t>& ahead_ns)
+      : own_(port, 1), other_(port, 2), ahead_ns_(ahead_ns) {}
 
   void send(SensorMode mode, std::int64_t frame, int index) {
-    const ByteVector packet = packet_of(sensor_, frame, index, 8000, 1);
-    const auto second = [&] { return packet_of(sensor_, frame, index, 20000, 2); };
+    const ByteVector packet = packet_of(sensor_, frame, index, 8000, 1, ahead_ns_);
+    const auto second = [&] { return packet_of(sensor_, frame, index, 20000, 2, ahead_ns_); };
     switch (mode) {
       case SensorMode::well:
         return own_.send(packet);
@@ -105,7 +106,7 @@ class Faulty {
       case SensorMode::flood:
         return send_often(packet, 10);
       case SensorMode::other_model:
-        return own_.send(packet_of(other_sensor(), frame, index, 20000, 3));
+        return own_.send(packet_of(other_sensor(), frame, index, 20000, 3, ahead_ns_));
     }
   }
 
@@ -127,6 +128,7 @@ class Faulty {
   OusterSensor sensor_ = lab_sensor();
   Sender own_;
   Sender other_;
+  const std::atomic<std::int64_t>& ahead_ns_;
   ByteVector held_;
   std::minstd_rand random_{1};
 };
@@ -194,8 +196,9 @@ OusterSensor lab_sensor() {
   return sensor;
 }
 
-void live_as_sensor(std::uint16_t port, const std::atomic<SensorMode>& mode, const Board& board) {
-  Faulty sensor(port);
+void live_as_sensor(std::uint16_t port, const std::atomic<SensorMode>& mode,
+                    const std::atomic<std::int64_t>& ahead_ns, const Board& board) {
+  Faulty sensor(port, ahead_ns);
   for (std::int64_t frame = 0;; ++frame) {
     for (int index = 0; index < kPackets; ++index) {
       sleep_until(board, frame * kFrame_ns + (index + 1) * kFrame_ns / kPackets);

@@ -80,6 +80,35 @@ TEST_CASE("poses that are none, or go back in time, or come ten times as often m
   lab.stop();
 }
 
+TEST_CASE("a lidar whose clock is not the odometry's is not mapped, and Health says how far it is off") {
+  Lab lab;
+  struct Clock {
+    const char* fault;
+    std::int64_t ahead_s;
+    const char* words;
+  };
+  for (const Clock& clock :
+       {Clock{"the lidar's clock 2 s behind", -2, "the lidar's clock is 2.0 s behind the odometry's"},
+        Clock{"the lidar's clock is TAI", 37, "37.0 s ahead of the odometry's (that is TAI - UTC)"},
+        Clock{"the lidar's clock is Unix time", 1'700'000'000, "(the odometry's counts from its boot)"}}) {
+    std::uint64_t mapped = 0;
+    std::uint64_t mapped_meanwhile = 0;
+    lab.check_fault(
+        clock.fault, kFront, clock.words, [&] { lab.board->front_ahead_ns = clock.ahead_s * 1'000'000'000; },
+        [&] {
+          mapped = lab.observer->counter(kFront, "sweeps_mapped");
+          const std::uint64_t refused = lab.observer->counter(kFront, "drop_clock_offset");
+          CHECK(
+              eventually([&] { return lab.observer->counter(kFront, "drop_clock_offset") >= refused + 10; }));
+          mapped_meanwhile = lab.observer->counter(kFront, "sweeps_mapped");
+          lab.board->front_ahead_ns = 0;
+        });
+    CHECK(mapped_meanwhile == mapped);
+  }
+  CHECK(lab.board->wrong_maps == 0);
+  lab.stop();
+}
+
 TEST_CASE("with odometry at 1 Hz nothing is mapped, and Health says why") {
   Lab lab;
   check(lab, "odometry at 1 Hz", OdometryMode::slow, "gap of 1.0");

@@ -188,10 +188,10 @@ TEST_CASE("what was lost is told by reason, with the key or the times that decid
   const auto lines = explain(losses, stream.intake());
   REQUIRE(lines.size() == 2);
   CHECK(lines[0] ==
-        "3 sweeps not mapped: after the odometry: odometry spans 10.0 .. 20.0 s, these sweeps 991.6 .. 991.8 "
+        "3 sweeps not mapped: after the odometry: odometry spans 10.0 .. 20.0 s, sweeps 991.6 .. 991.8 "
         "s");
   CHECK(lines[1] ==
         "1 sweeps not mapped: in a gap of the odometry (odometry.max_gap_s is 0.5): odometry spans 10.0 .. "
         "20.0 "
-        "s, these sweeps 12.0 .. 12.0 s");
+        "s, sweeps 12.0 .. 12.0 s");
 }

@@ -27,7 +27,7 @@ Vehicle simulated(const std::string& folder, double seconds) {
 Vehicle front_only(const std::string& folder) {
   const std::string file = folder + "/front_only.yaml";
   std::ofstream(file) << "name: front_only\n"
-                         "odometry: {source: tum:odometry.tum, timeout_s: 10}\n"
+                         "odometry: {source: tum:odometry.tum, timeout_s: 10, max_clock_offset_s: 60}\n"
                          "lidars:\n"
                          "  front:\n"
                          "    source: ouster:front.pcap?meta=front.json\n"

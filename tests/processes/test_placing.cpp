@@ -33,14 +33,15 @@ OusterSensor sensor() {
   return sensor;
 }
 
-void write_recording(const std::string& folder) {
+/// The capture's clock is `capture_ahead_ns` ahead of the sensor's; some packets come a little late.
+void write_recording(const std::string& folder, std::int64_t capture_ahead_ns = 0) {
   write_text(folder + "/meta.json", sensor().json());
   PcapWriter pcap(folder + "/sky.pcap");
   for (int frame_id = 0; frame_id < kFrames; ++frame_id)
     for (int first = 0; first < kColumns; first += 4) {
       const bool sky = first < kFirstReturn || first > kLastReturn;
       pcap.add(frame(plain_packet(sensor(), frame_id, first, sky ? 0 : 8000)),
-               column_time_ns(frame_id, first + 3));
+               column_time_ns(frame_id, first + 3) + capture_ahead_ns + first % 3 * 200'000);
     }
   pcap.write();
 }
@@ -62,16 +63,19 @@ void write_odometry(const std::string& path, const Drive& drive) {
     if (t > drive.last_s + 1e-6) return;
     if (t > drive.gap_from_s && t < drive.gap_to_s) continue;
     char line[128];
-    std::snprintf(line, sizeof line, "%.6f %.6f 0 0 0 0 0 1\n", t, 2 * t + (t >= drive.jump_at_s ? 5 : 0));
+    std::snprintf(line, sizeof line, "%.6f %.6f 0 0 0 0 0 1\n", t, 2 * i * drive.period_s + (t >= drive.jump_at_s ? 5 : 0));
     file << line;
   }
 }
 
-Vehicle vehicle_of(const std::string& folder, const std::string& source) {
+Vehicle vehicle_of(const std::string& folder, const std::string& source,
+                   const std::string& clock = "sensor") {
   const std::string file = folder + "/vehicle.yaml";
-  std::ofstream(file) << "name: sky\nodometry: {source: tum:odometry.tum, timeout_s: 10}\n"
-                      << "lidars:\n  top:\n    source: '" << source << "'\n    max_returns: 4096\n"
-                      << "    T_base_sensor: {x: 0, y: 0, z: 1.5, roll: 0, pitch: 0, yaw: 0}\n";
+  std::ofstream(file)
+      << "name: sky\nodometry: {source: tum:odometry.tum, timeout_s: 10, max_clock_offset_s: 60}\n"
+      << "lidars:\n  top:\n    source: '" << source << "'\n    max_returns: 4096\n"
+      << "    clock: " << clock << "\n"
+      << "    T_base_sensor: {x: 0, y: 0, z: 1.5, roll: 0, pitch: 0, yaw: 0}\n";
   return {file, {"top"}, folder, small_map()};
 }
 
@@ -99,9 +103,10 @@ Run replay(const Vehicle& vehicle, const std::string& rate) {
 }
 
 /// gvom-map and a replay at both kinds of rate map so many sweeps, to the same bytes.
-std::string check_same(const std::string& folder, const Drive& drive, int expected) {
+std::string check_same(const std::string& folder, const Drive& drive, int expected,
+                       const std::string& clock = "sensor") {
   write_odometry(folder + "/odometry.tum", drive);
-  const Vehicle vehicle = vehicle_of(folder, "ouster:sky.pcap?meta=meta.json");
+  const Vehicle vehicle = vehicle_of(folder, "ouster:sky.pcap?meta=meta.json", clock);
   const std::string maps = map_offline(vehicle, "maps");
   CHECK(map_count(maps) == expected);
   std::string told;
@@ -143,6 +148,16 @@ TEST_CASE("columns without a return need no odometry: all sweeps with sky at the
   graph.stop();
 }
 
+TEST_CASE("a sensor that counts from its boot is mapped by the arrival of its packets, the same everywhere") {
+  const TemporaryFolder folder;
+  constexpr double kUnix_s = 1'700'000'000;
+  write_recording(folder.path(), 1'700'000'000'000'000'000);
+  Drive drive;
+  drive.first_s += kUnix_s;
+  drive.last_s += kUnix_s;
+  check_same(folder.path(), drive, kFrames, "arrival");
+}
+
 TEST_CASE("a gap and a jump of recorded odometry mean the same in one process and in several") {
   const TemporaryFolder folder;
   write_recording(folder.path());
@@ -155,4 +170,34 @@ TEST_CASE("a gap and a jump of recorded odometry mean the same in one process an
   jump.jump_at_s = 2.02;  // between 2.00 and 2.05 s: across the sweep from 2.008 to 2.047 s
   CHECK_THAT(check_same(folder.path(), jump, kFrames - 1),
              Catch::Contains("1 sweeps not mapped: across a jump of the odometry"));
+}
+
+TEST_CASE("recordings whose clocks never meet: Health, the log and gvom-map name both spans and the guess") {
+  const TemporaryFolder folder;
+  write_recording(folder.path());
+  Drive tai;
+  tai.first_s = 1 + 37;
+  tai.last_s = 4 + 37;
+  write_odometry(folder.path() + "/odometry.tum", tai);
+  const Vehicle vehicle = vehicle_of(folder.path(), "ouster:sky.pcap?meta=meta.json");
+  const std::string words =
+      "30 sweeps not mapped: before the odometry: odometry spans 38.0 .. 41.0 s, sweeps 1.0 .. 3.9 s "
+      "(that is TAI - UTC)";
+  const Ended offline = run("gvom-map", vehicle.arguments({"--out", "maps"}), folder.path());
+  CHECK(offline.code == 65);
+  CHECK_THAT(offline.output, Catch::Contains(words));
+
+  Graph graph(vehicle);
+  const Observer observer(folder.path());
+  REQUIRE(observer.is_up());
+  graph.start_readers();
+  const auto odometry = graph.replay({"--rate", "1"});
+  CHECK(eventually([&] {
+    const auto health = observer.health("gvom-ingest-top");
+    return health && health->state == static_cast<std::uint32_t>(gvom::ipc::HealthState::degraded) &&
+           std::string(health->reason).find("30 sweeps not mapped: before the odometry") == 0;
+  }));
+  CHECK(odometry->wait() == 0);
+  graph.stop();
+  CHECK_THAT(graph.ingest("top").output(), Catch::Contains(words));
 }

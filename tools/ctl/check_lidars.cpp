@@ -4,7 +4,7 @@
 #include <fstream>
 #include <memory>
 
-#include "services/ingest/source.hpp"
+#include "services/ingest/source_options.hpp"
 #include "services/ingest/udp_receiver.hpp"
 #include "services/ingest/uri.hpp"
 #include "tools/ctl/check.hpp"
@@ -54,8 +54,7 @@ Finding check_source(const LidarConfig& lidar, Opened& opened) {
   const std::string what = "lidar " + lidar.name;
   if (lidar.source.empty())
     return {Level::error, what, fmt::format("lidars.{}.source is empty: give one", lidar.name)};
-  auto source = ingest::open_source(lidar.source,
-                                    {lidar.min_sweep_fraction, static_cast<std::size_t>(lidar.max_returns)});
+  auto source = ingest::open_source(lidar.source, ingest::source_options(lidar));
   if (!source) {
     if (auto taken = judge_owner(lidar, what)) return *taken;
     return {Level::error, what, source.error().what};

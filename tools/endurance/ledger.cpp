@@ -48,9 +48,10 @@ void Ledger::look_at_ingest(const std::string& process, const tools::Counters& c
       .look(static_cast<std::int64_t>(pause.packets) - sum_of(counters, {"packets", "drop_packet_kernel"}));
   balance(process + ": sweeps neither mapped nor counted as dropped", true)
       .look(value_of(counters, "sweeps_in") -
-            sum_of(counters, {"sweeps_mapped", "drop_before_odometry", "drop_odometry_timeout",
-                              "drop_after_odometry", "drop_odometry_gap", "drop_odometry_jump",
-                              "drop_odometry_full", "drop_overrun", "drop_no_chunk", "drop_backend_failed"}));
+            sum_of(counters,
+                   {"sweeps_mapped", "drop_before_odometry", "drop_odometry_timeout", "drop_after_odometry",
+                    "drop_odometry_gap", "drop_odometry_jump", "drop_clock_offset", "drop_odometry_full",
+                    "drop_overrun", "drop_no_chunk", "drop_backend_failed"}));
   if (pause.fusion_life == 0) return;
   const bool from_zero = pause.first_life && pause.fusion_life == 1;
   balance(process + ": maps that fusion " + std::to_string(pause.fusion_life) + " neither took nor missed",

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "services/common/odometry_file.hpp"
+#include "services/ingest/source_options.hpp"
 
 namespace gvom::tools {
 
@@ -73,7 +74,7 @@ OfflineExpected<void> OfflineMapper::add_odometry(services::OdometryConfig confi
 OfflineExpected<void> OfflineMapper::add_lidar(const services::VehicleConfig& config,
                                                const services::LidarConfig& lidar) {
   const auto max_returns = static_cast<std::size_t>(lidar.max_returns);
-  auto source = ingest::open_source(lidar.source, {lidar.min_sweep_fraction, max_returns});
+  auto source = ingest::open_source(lidar.source, ingest::source_options(lidar));
   if (!source) return bad_data("lidar " + lidar.name + ": " + source.error().what);
   if ((*source)->is_live()) return bad_data("lidar " + lidar.name + ": " + lidar.source + " is live");
   auto opened = open_voxelizer(lidar.backend,
@@ -107,12 +108,12 @@ OfflineExpected<bool> OfflineMapper::map_sweep(std::size_t index, MappedSweep& m
   }
   const auto shape = lidar.mapper->count(lidar.sweep, odometry_->poses());
   if (!shape) return unavailable(shape.error().what);
+  lidar.losses.count_placed();
   auto map = std::make_unique<BrickMapStorage>();
   if (const auto written = lidar.mapper->write(map->resize(*shape)); !written)
     return unavailable(written.error().what);
   const auto fused = fuse(index, std::move(map));
   if (!fused || !*fused) return fused;
-  ++lidar.mapped;
   mapped = {lidar.name, lidar.sweep.stamp_ns, lidar.sweep.complete, lidar.mapper->filter_counts()};
   return true;
 }

@@ -78,7 +78,6 @@ class OfflineMapper {
     Sweep sweep;  // the next one
     bool ended = false;
     ingest::SweepLosses losses;  // of sweeps that the odometry could not place; explain() has the words
-    std::uint64_t mapped = 0;
   };
   [[nodiscard]] const std::vector<Lidar>& lidars() const { return lidars_; }
 

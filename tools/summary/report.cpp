@@ -24,6 +24,7 @@ constexpr Reason kSweepReasons[] = {
     {"drop_after_odometry", "after the odometry's end"},
     {"drop_odometry_timeout", "no odometry in time"},
     {"drop_odometry_full", "no room to wait for odometry"},
+    {"drop_clock_offset", "of another clock than the odometry's"},
     {"drop_odometry_gap", "in a gap of the odometry"},
     {"drop_odometry_jump", "across a jump of the odometry"},
     {"drop_sweep_incomplete", "incomplete"},

@@ -84,7 +84,6 @@ ExitCode exit_code_of(const ipc::Error& error) {
     case ipc::ErrorKind::too_large:
       return ExitCode::configuration;
     case ipc::ErrorKind::bad_name:
-    case ipc::ErrorKind::incompatible:
       break;
   }
   return ExitCode::internal;
