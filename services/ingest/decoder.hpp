@@ -42,6 +42,15 @@ class Decoder {
   /// More packets in a second do not come from one such sensor.
   [[nodiscard]] virtual double most_packets_per_s() const = 0;
 
+  /// What one such sensor sends at the slowest setting that it has.
+  [[nodiscard]] virtual double least_packets_per_s() const = 0;
+
+  /// Returns that a sweep can have; Velodyne: at 10 turns a second.
+  [[nodiscard]] virtual std::size_t most_returns() const = 0;
+
+  /// The first packet of the recording: what it tells of the sensor's settings holds for most_returns().
+  virtual void expect_like(const Packet& /*packet*/) {}
+
   /// Uses one packet. True if it closed a sweep, which is then in `out`.
   virtual bool decode(const Packet& packet, Sweep& out) = 0;
 

@@ -12,6 +12,7 @@ FragmentTable::FragmentTable(SourceCounters& counters) : counters_(counters) {
 void FragmentTable::give_up(Slot& slot) {
   slot.open = false;
   ++counters_.lost_fragments;
+  ++lonely_;
 }
 
 void FragmentTable::clear() {
@@ -56,6 +57,7 @@ void FragmentTable::store(Slot& slot, const Fragment& fragment) {
 
 Bytes FragmentTable::add(const Fragment& fragment) {
   ++counters_.fragments;
+  any_other_ = any_other_ || fragment.offset != 0;
   Slot& slot = slot_of(fragment);
   const bool malformed = fragment.size == 0 || fragment.offset + fragment.size > kMaxBytes ||
                          (fragment.more && fragment.size % 8 != 0);

@@ -38,6 +38,10 @@ class FragmentTable {
   /// Gives up every open datagram.
   void clear();
 
+  /// Datagrams given up with their first fragment alone, if never another one came: what a filter by port
+  /// leaves, for the others have no port.
+  [[nodiscard]] std::uint64_t lonely() const { return any_other_ ? 0 : lonely_; }
+
  private:
   static constexpr std::size_t kOpenDatagrams = 8;
   static constexpr std::size_t kMaxBytes = 65536;
@@ -61,6 +65,8 @@ class FragmentTable {
   SourceCounters& counters_;
   std::array<Slot, kOpenDatagrams> slots_;
   std::uint64_t order_ = 0;
+  std::uint64_t lonely_ = 0;
+  bool any_other_ = false;  // a fragment that is not its datagram's first
 };
 
 }  // namespace gvom::ingest

@@ -22,32 +22,39 @@ bool is_ip(std::uint16_t ethertype) {
   return ethertype == 0x0800 || ethertype == 0x86DD;
 }
 
-Bytes strip_ethernet(Bytes frame) {
-  std::size_t at = 12;
-  while (frame.size >= at + 2) {
-    const std::uint16_t type = load_be16(frame.data + at);
-    if (is_ip(type)) return behind(frame, at + 2);
-    const bool vlan = type == 0x8100 || type == 0x88A8 || type == 0x9100;
-    if (!vlan) break;
-    at += 4;
+/// The IP packet behind a header that has its type at `type_at`; VLAN tags may stand between them.
+Bytes strip_header(Bytes frame, std::size_t type_at, std::size_t header) {
+  if (frame.size < header) return {};
+  std::uint16_t type = load_be16(frame.data + type_at);
+  Bytes rest = behind(frame, header);
+  while (type == 0x8100 || type == 0x88A8 || type == 0x9100) {
+    if (rest.size < 4) return {};
+    type = load_be16(rest.data + 2);
+    rest = behind(rest, 4);
   }
-  return {};
+  return is_ip(type) ? rest : Bytes{};
 }
 
-Bytes strip_cooked(Bytes frame, std::size_t protocol_at, std::size_t header) {
-  if (frame.size < header || !is_ip(load_be16(frame.data + protocol_at))) return {};
-  return behind(frame, header);
+/// Point-to-point protocol: FF 03, which may be left out, and the kind of what follows.
+Bytes strip_ppp(Bytes frame) {
+  if (frame.size >= 2 && load_be16(frame.data) == 0xFF03) frame = behind(frame, 2);
+  if (frame.size < 2) return {};
+  const std::uint16_t kind = load_be16(frame.data);
+  return kind == 0x0021 || kind == 0x0057 ? behind(frame, 2) : Bytes{};
 }
 
 /// The IP packet in a frame; null data if there is none.
 Bytes strip_link(int link_type, Bytes frame) {
   switch (link_type) {
     case DLT_EN10MB:
-      return strip_ethernet(frame);
+      return strip_header(frame, 12, 14);
     case DLT_LINUX_SLL:
-      return strip_cooked(frame, 14, 16);
+      return strip_header(frame, 14, 16);
     case DLT_LINUX_SLL2:
-      return strip_cooked(frame, 0, 20);
+      return strip_header(frame, 0, 20);
+    case DLT_PPP:
+    case DLT_PPP_SERIAL:
+      return strip_ppp(frame);
     case DLT_NULL:
     case DLT_LOOP:
       return frame.size < 4 ? Bytes{} : behind(frame, 4);
@@ -56,20 +63,14 @@ Bytes strip_link(int link_type, Bytes frame) {
   }
 }
 
-Address address(const std::uint8_t* bytes, std::size_t size) {
-  Address out{};
-  std::copy_n(bytes, size, out.begin());
-  return out;
-}
-
 }  // namespace
 
 FrameParser::FrameParser(int link_type, std::optional<std::uint16_t> port, SourceCounters& counters)
     : link_type_(link_type), port_(port), counters_(counters), fragments_(counters) {}
 
 bool FrameParser::supports(int link_type) {
-  const auto known = {DLT_EN10MB, DLT_LINUX_SLL, DLT_LINUX_SLL2, DLT_NULL, DLT_LOOP,
-                      DLT_RAW,    DLT_IPV4,      DLT_IPV6,       kRawIp};
+  const auto known = {DLT_EN10MB, DLT_LINUX_SLL, DLT_LINUX_SLL2, DLT_NULL, DLT_LOOP,      DLT_RAW,
+                      DLT_IPV4,   DLT_IPV6,      kRawIp,         DLT_PPP,  DLT_PPP_SERIAL};
   return std::find(known.begin(), known.end(), link_type) != known.end();
 }
 
@@ -108,8 +109,8 @@ FrameParser::Verdict FrameParser::parse_ipv4(Bytes ip, Packet& out) {
   if (ip.size < total) return Verdict::truncated;
   const std::uint16_t flags = load_be16(ip.data + 6);
   Fragment part;
-  part.source = address(ip.data + 12, 4);
-  part.destination = address(ip.data + 16, 4);
+  part.source = ipv4_address(ip.data + 12);
+  part.destination = ipv4_address(ip.data + 16);
   part.id = load_be16(ip.data + 4);
   part.offset = static_cast<std::size_t>(flags & 0x1FFF) * 8;
   part.more = (flags & 0x2000) != 0;
@@ -128,14 +129,14 @@ FrameParser::Verdict FrameParser::parse_ipv6(Bytes ip, Packet& out) {
   const std::uint8_t next = ip.data[6];
   if (next != kUdp && next != kIpv6Fragment) return Verdict::foreign;
   if (ip.size < total) return Verdict::truncated;
-  out.source = address(ip.data + 8, 16);
+  out.source = ipv6_address(ip.data + 8);
   const Bytes payload{ip.data + kHeader, total - kHeader};
   if (next == kUdp) return parse_udp(payload, out);
   if (payload.size < 8 || payload.data[0] != kUdp) return Verdict::foreign;
   const std::uint16_t position = load_be16(payload.data + 2);
   Fragment part;
   part.source = out.source;
-  part.destination = address(ip.data + 24, 16);
+  part.destination = ipv6_address(ip.data + 24);
   part.id = load_be32(payload.data + 4);
   part.offset = position & 0xFFF8u;
   part.more = (position & 1) != 0;

@@ -10,7 +10,7 @@
 
 namespace gvom::ingest {
 
-/// Takes Ethernet (with VLAN tags), Linux cooked v1 and v2, raw IP and loopback; IPv4 and IPv6; UDP.
+/// Takes Ethernet, Linux cooked v1 and v2 (all with VLAN tags), PPP, raw IP and loopback; IPv4 and IPv6; UDP.
 /// Everything else is counted: `foreign_packets`, `truncated_packets`, `fragments`, `lost_fragments`.
 class FrameParser {
  public:
@@ -25,6 +25,9 @@ class FrameParser {
 
   /// Gives up fragmented datagrams that are not whole.
   void finish() { fragments_.clear(); }
+
+  /// Datagrams given up of which the first fragment came, in a capture where no other fragment ever did.
+  [[nodiscard]] std::uint64_t lonely_fragments() const { return fragments_.lonely(); }
 
  private:
   enum class Verdict { ok, foreign, truncated, pending };

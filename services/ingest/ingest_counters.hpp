@@ -82,6 +82,8 @@ inline constexpr CounterRow kIngestCounters[] = {
     {"packets", &IngestCounts::packets, "packets that came to the decoder"},
     {"drop_packet_foreign", &IngestCounts::foreign_packets, "packets that are not of such a sensor"},
     {"drop_packet_second_sensor", &IngestCounts::second_sensor_packets, "packets of another such sensor"},
+    {"drop_packet_slow", &IngestCounts::slow_packets,
+     "packets of a sender that is too slow for such a sensor"},
     {"drop_packet_truncated", &IngestCounts::truncated_packets, "packets captured shorter than sent"},
     {"drop_packet_duplicate", &IngestCounts::duplicate_packets, "packets that came again"},
     {"drop_packet_late", &IngestCounts::late_packets, "packets of a sweep that is closed"},

@@ -24,6 +24,11 @@ ExitCode run(const services::VehicleConfig& config, const services::LidarConfig&
     return source.error().kind == ingest::SourceError::Kind::unavailable ? ExitCode::unavailable
                                                                          : ExitCode::bad_data;
   }
+  const auto max_returns = static_cast<std::size_t>(lidar.max_returns);
+  if (const auto lack = ingest::lack_of_room(lidar.name, max_returns, **source); !lack.empty()) {
+    spdlog::error("{}", lack);
+    return ExitCode::configuration;
+  }
   for (const std::string& warning : (*source)->warnings()) spdlog::warn("{}", warning);
   auto runtime = services::join_bus("gvom-ingest-" + lidar.name, lifecycle);
   if (!runtime) return runtime.error();

@@ -69,7 +69,7 @@ DecoderResult make_decoder(const SourceUri& uri, const SourceOptions& options, S
 
 /// Reads `path` up to the first packet that the decoder recognises; an error if there is none.
 tl::expected<void, std::string> probe_recording(const std::string& path, std::optional<std::uint16_t> port,
-                                                const Decoder& decoder) {
+                                                Decoder& decoder) {
   SourceState ignored;
   auto reader = PcapReader::open(path, port, ignored);
   if (!reader) return tl::unexpected(reader.error());
@@ -80,7 +80,10 @@ tl::expected<void, std::string> probe_recording(const std::string& path, std::op
     const auto event = (*reader)->next(packet, std::chrono::milliseconds(0));
     if (!event) return tl::unexpected(event.error());
     if (*event == PacketEvent::end) break;
-    if (decoder.recognises(packet) && decoder.is_of_this_sensor(packet)) return {};
+    if (decoder.recognises(packet) && decoder.is_of_this_sensor(packet)) {
+      decoder.expect_like(packet);
+      return {};
+    }
     ++sizes[packet.size];
     KindText kind{};
     decoder.name_other(packet, kind);
@@ -102,7 +105,7 @@ tl::expected<void, std::string> probe_recording(const std::string& path, std::op
                         (found.empty() ? "none" : found));
 }
 
-PacketsResult open_recording(const SourceUri& uri, const Decoder& decoder, SourceState& state) {
+PacketsResult open_recording(const SourceUri& uri, Decoder& decoder, SourceState& state) {
   const auto port = port_option(uri);
   if (!port) return tl::unexpected(port.error());
   const auto probed = probe_recording(uri.path, *port, decoder);
@@ -111,9 +114,9 @@ PacketsResult open_recording(const SourceUri& uri, const Decoder& decoder, Sourc
 }
 
 PacketsResult open_live(const SourceUri& uri, SourceState& state) {
-  const auto port = parse_port(uri.path);
-  if (!port) return tl::unexpected("source '" + uri.text + "': " + port.error());
-  return UdpReceiver::open(*port, uri.option("bind").value_or(""), state);
+  const auto options = udp_options(uri);
+  if (!options) return tl::unexpected(options.error());
+  return UdpReceiver::open(*options, state);
 }
 
 SourceResult open_packets(const SourceUri& uri, const SourceOptions& options, bool live) {
@@ -122,8 +125,10 @@ SourceResult open_packets(const SourceUri& uri, const SourceOptions& options, bo
   if (!decoder) return tl::unexpected(decoder.error());
   auto packets = live ? open_live(uri, *state) : open_recording(uri, **decoder, *state);
   if (!packets) return tl::unexpected(packets.error());
+  const auto from = from_option(uri);
+  if (!from) return tl::unexpected(from.error());
   return std::make_unique<PacketSweepSource>(std::move(state), std::move(*packets), std::move(*decoder),
-                                             options);
+                                             options, *from);
 }
 
 SourceResult open_scans(const SourceUri& uri, const SourceOptions& options) {
@@ -143,15 +148,23 @@ SourceResult open_scans(const SourceUri& uri, const SourceOptions& options) {
 
 }  // namespace
 
+std::string lack_of_room(const std::string& lidar, std::size_t max_returns, const Source& source) {
+  const std::size_t needed = source.most_returns();
+  if (needed <= max_returns) return "";
+  return "lidars." + lidar + ".max_returns is " + std::to_string(max_returns) + ", and a sweep can have " +
+         std::to_string(needed) + " returns: its cloud would be cut; make it " + std::to_string(needed);
+}
+
 tl::expected<std::unique_ptr<Source>, SourceError> open_source(const std::string& text,
                                                                const SourceOptions& options) {
   const auto uri = parse_source_uri(text);
   if (!uri) return tl::unexpected(uri.error());
   const std::map<std::string, std::set<std::string>> schemes = {
-      {"ouster", {"meta", "port", "serial"}},
-      {"ouster-udp", {"bind", "meta", "serial"}},
-      {"velodyne", {"calibration", "model", "model_byte", "port", "returns"}},
-      {"velodyne-udp", {"bind", "calibration", "model", "model_byte", "returns"}},
+      {"ouster", {"from", "meta", "port", "serial"}},
+      {"ouster-udp", {"bind", "from", "group", "interface", "meta", "serial"}},
+      {"velodyne", {"calibration", "from", "model", "model_byte", "port", "returns"}},
+      {"velodyne-udp",
+       {"bind", "calibration", "from", "group", "interface", "model", "model_byte", "returns"}},
       {"scans", {"floats", "time"}},
   };
   const auto scheme = schemes.find(uri->scheme);

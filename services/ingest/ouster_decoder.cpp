@@ -14,6 +14,7 @@ constexpr int kMaxFramesAhead = 32;
 constexpr int kMaxFramesBehind = 16;
 constexpr int kMaxFramesLost = 4;  // a longer gap is silence, not loss
 constexpr double kMostFramesPerSecond = 20;
+constexpr double kLeastFramesPerSecond = 10;
 constexpr std::uint64_t kMaxTimestampNs = std::uint64_t{1} << 62;
 constexpr std::uint64_t kMaxRepeatNs = 1'000'000'000;
 
@@ -102,6 +103,16 @@ std::uint64_t OusterDecoder::sensor_id(const Packet& packet) const {
 
 double OusterDecoder::most_packets_per_s() const {
   return kMostFramesPerSecond * metadata_.columns_per_frame / metadata_.columns_per_packet;
+}
+
+/// Packets without a column of the window are not sent.
+double OusterDecoder::least_packets_per_s() const {
+  return kLeastFramesPerSecond * metadata_.window_columns() / metadata_.columns_per_packet;
+}
+
+std::size_t OusterDecoder::most_returns() const {
+  const std::size_t per_pixel = metadata_.layout.second != 0 ? 2 : 1;
+  return metadata_.beams() * static_cast<std::size_t>(metadata_.window_columns()) * per_pixel;
 }
 
 void OusterDecoder::reset() {

@@ -1,7 +1,6 @@
 // UDP payloads, and where they come from: a recording or a socket.
 #pragma once
 
-#include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -10,12 +9,10 @@
 
 #include <tl/expected.hpp>
 
+#include "services/ingest/address.hpp"
 #include "services/ingest/source.hpp"
 
 namespace gvom::ingest {
-
-/// An IPv6 address, or an IPv4 one in the first four bytes.
-using Address = std::array<std::uint8_t, 16>;
 
 /// The payload of one UDP datagram. `data` stays valid until the source's next call.
 struct Packet {

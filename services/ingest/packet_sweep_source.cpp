@@ -18,11 +18,13 @@ constexpr std::int64_t kSilenceNs = 1'000'000'000;
 
 PacketSweepSource::PacketSweepSource(std::unique_ptr<SourceState> state,
                                      std::unique_ptr<PacketSource> packets, std::unique_ptr<Decoder> decoder,
-                                     const SourceOptions& options)
+                                     const SourceOptions& options, std::optional<Address> only_from)
     : state_(std::move(state)),
       packets_(std::move(packets)),
       decoder_(std::move(decoder)),
-      clock_offset_ns_(options.clock_offset_ns) {
+      clock_offset_ns_(options.clock_offset_ns),
+      only_from_(only_from),
+      owner_(decoder_->least_packets_per_s(), decoder_->most_packets_per_s()) {
   if (options.by_arrival) arrival_.emplace();
 }
 
@@ -53,15 +55,75 @@ bool PacketSweepSource::decode(const Packet& packet, Sweep& out) {
     warn_if_nothing_fits(packet.size);
     return false;
   }
-  const bool of_this_sensor = decoder_->is_of_this_sensor(packet);
-  if (of_this_sensor && is_of_our_sensor(packet)) return use(packet, out);
+  anything_fits_ = true;
+  if (!decoder_->is_of_this_sensor(packet) || (only_from_ && *only_from_ != packet.source)) {
+    count_second(packet);
+    return false;
+  }
+  return is_live() ? decode_live(packet, out) : decode_recorded(packet, out);
+}
+
+bool PacketSweepSource::decode_live(const Packet& packet, Sweep& out) {
+  const bool was_proven = owner_.is_proven();
+  switch (owner_.judge({packet.source, decoder_->sensor_id(packet)}, packet.received_ns)) {
+    case PortOwner::Verdict::use:
+      return use(packet, out) && (owner_.is_proven() || withhold(out));
+    case PortOwner::Verdict::slow:
+      ++state_->counters.slow_packets;
+      state_->counters.slow_address = packet.source;
+      return false;
+    case PortOwner::Verdict::other:
+      break;
+    case PortOwner::Verdict::new_owner:
+      count_second(packet);
+      return change_sensor(out) && (was_proven || withhold(out));
+  }
   count_second(packet);
-  if (!of_this_sensor) return false;
-  // The new sensor's frames must not go into the open sweep of the one before.
-  return !sensor_ && decoder_->finish(out);
+  return false;
+}
+
+/// The first sender is the sensor. Another one is once it has sent many packets running and the sensor none
+/// for a second: it got another address, or another recording begins here.
+bool PacketSweepSource::decode_recorded(const Packet& packet, Sweep& out) {
+  if (!sensor_) sensor_ = packet.source;
+  if (*sensor_ == packet.source) {
+    heard_ns_ = packet.capture_ns;
+    other_sensor_.fits();
+    return use(packet, out);
+  }
+  count_second(packet);
+  warn_of_second(packet);
+  if (!takes_over(packet)) return false;
+  sensor_ = packet.source;
+  return change_sensor(out);
+}
+
+bool PacketSweepSource::takes_over(const Packet& packet) {
+  const bool many = other_sensor_.misfits();
+  const std::int64_t silent_ns = packet.capture_ns - heard_ns_;
+  return many && (packet.capture_ns == 0 || silent_ns < 0 || silent_ns > kSilenceNs);
+}
+
+bool PacketSweepSource::change_sensor(Sweep& out) {
+  const bool closed = decoder_->finish(out);
+  decoder_->reset();
+  clock_is_new_ = true;
+  return closed;
+}
+
+/// A sweep of a sender that has not had a sensor's rate is none.
+bool PacketSweepSource::withhold(Sweep& out) {
+  SourceCounters& counters = state_->counters;
+  --counters.sweeps;
+  if (!out.complete) --counters.incomplete_sweeps;
+  ++counters.dropped_sweeps;
+  out.clear();
+  return false;
 }
 
 bool PacketSweepSource::use(const Packet& packet, Sweep& out) {
+  if (arrival_ && clock_is_new_) arrival_.emplace();
+  clock_is_new_ = false;
   const bool closed = decoder_->decode(packet, out);
   const auto stamp_ns = decoder_->packet_time_ns();
   if (arrival_ && stamp_ns) arrival_->take(*stamp_ns, packet.capture_ns);
@@ -90,7 +152,7 @@ void PacketSweepSource::count_foreign(const Packet& packet) {
 void PacketSweepSource::count_second(const Packet& packet) {
   SourceCounters& counters = state_->counters;
   ++counters.second_sensor_packets;
-  std::copy_n(packet.source.begin(), counters.second_ipv4.size(), counters.second_ipv4.begin());
+  counters.second_address = packet.source;
   decoder_->name_other(packet, counters.second_kind);
   warn_of_other(counters.second_kind);
 }
@@ -103,29 +165,17 @@ void PacketSweepSource::warn_of_other(const KindText& kind) {
                              ") come too: none of them is used; expected: " + decoder_->expects());
 }
 
-/// The first sender is the sensor until another one takes over.
-bool PacketSweepSource::is_of_our_sensor(const Packet& packet) {
-  const Sender sender{packet.source, is_live() ? decoder_->sensor_id(packet) : 0};
-  if (!sensor_ || (!is_live() && takes_over(packet, sender))) sensor_ = sender;
-  if (*sensor_ == sender) {
-    heard_ns_ = packet.received_ns;
-    other_sensor_.fits();
-    return true;
-  }
-  if (is_live() && takes_over(packet, sender)) sensor_.reset();  // the next packet says who it is
-  other_ = sender;
-  return false;
-}
-
-/// Live, another sender is the sensor now if it sent two packets running and the one before has been silent
-/// for a second: it was exchanged, or given a new address. In a recording, if it sent many running.
-bool PacketSweepSource::takes_over(const Packet& packet, const Sender& sender) {
-  if (!is_live()) return !(*sensor_ == sender) && other_sensor_.misfits();
-  return other_ && *other_ == sender && packet.received_ns - heard_ns_ > kSilenceNs;
+/// Once, of a recording; live, Health tells it.
+void PacketSweepSource::warn_of_second(const Packet& packet) {
+  if (warned_of_second_) return;
+  warned_of_second_ = true;
+  state_->warnings.push_back(std::string("packets of such a sensor come from ") + to_text(*sensor_).data() +
+                             " and from " + to_text(packet.source).data() +
+                             ": only the first one's are used; from=ADDRESS takes the other's");
 }
 
 void PacketSweepSource::warn_if_nothing_fits(std::size_t packet_size) {
-  if (sensor_ || ++unrecognised_ != kUnrecognisedBeforeWarning) return;
+  if (anything_fits_ || ++unrecognised_ != kUnrecognisedBeforeWarning) return;
   state_->warnings.push_back("none of " + std::to_string(unrecognised_) + " packets is what is expected (" +
                              decoder_->expects() + "); the last one has " + std::to_string(packet_size) +
                              " bytes");
@@ -150,7 +200,6 @@ tl::expected<void, std::string> PacketSweepSource::rewind() {
   decoder_->reset();
   if (arrival_) arrival_.emplace();
   sensor_.reset();
-  other_.reset();
   other_sensor_.fits();
   error_.reset();
   ended_ = false;

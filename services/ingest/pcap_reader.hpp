@@ -1,6 +1,7 @@
-// The UDP payloads of a pcap or pcapng file, in the order of capture.
+// The UDP payloads of a pcap or pcapng file, also packed by gzip, in the order of capture.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -21,7 +22,8 @@ class PcapReader final : public PacketSource {
                                                                      std::optional<std::uint16_t> port,
                                                                      SourceState& state);
 
-  /// A last record that is cut off is the end, with a warning; a corrupt one is an error.
+  /// A last record that is cut off is the end, with a warning; a corrupt one is an error. Packets that were
+  /// not captured whole, and fragments whose others were filtered out, are warned of once.
   tl::expected<PacketEvent, std::string> next(Packet& out, std::chrono::milliseconds timeout) override;
   tl::expected<void, std::string> rewind() override;
   [[nodiscard]] bool is_live() const override { return false; }
@@ -38,13 +40,17 @@ class PcapReader final : public PacketSource {
   PcapReader(std::string path, Handle handle, std::optional<std::uint16_t> port, SourceState& state);
   static tl::expected<Handle, std::string> open_handle(const std::string& path);
   tl::expected<PacketEvent, std::string> end_of_file(bool clean);
+  enum Warning { kCut, kSnapped, kLonely, kWarnings };
+  /// With the number of the newest record; of each kind the first only.
+  void warn(Warning kind, const std::string& text);
+  void note_snapped(std::uint32_t captured, std::uint32_t sent);
 
   std::string path_;
   Handle handle_;
   SourceState& state_;
   FrameParser parser_;
   std::uint64_t records_ = 0;
-  bool warned_ = false;
+  std::array<bool, kWarnings> warned_{};
 };
 
 }  // namespace gvom::ingest

@@ -24,6 +24,11 @@ std::array<char, sizeof(KindText) + 4> in_brackets(const KindText& kind) {
   return text;
 }
 
+/// The packets of the sensor itself.
+std::uint64_t of_sensor(const SourceCounters& counters) {
+  return counters.packets - counters.foreign_packets - counters.second_sensor_packets - counters.slow_packets;
+}
+
 }  // namespace
 
 SensorWatch::SensorWatch(double most_packets_per_s, std::int64_t now_ns)
@@ -35,7 +40,7 @@ void SensorWatch::update(const SourceCounters& counters, std::uint64_t overruns,
   const Look& newest = looks_[(looked_ - 1) % kLooks];
   if (most_packets_per_s_ <= 0 || now_ns - newest.at_ns < kLook_ns) return;
   now_ns_ = now_ns;
-  if (counters.packets != newest.counters.packets) heard_ns_ = now_ns;
+  if (of_sensor(counters) != of_sensor(newest.counters)) heard_ns_ = now_ns;
   const Look oldest = looked_ < kLooks ? looks_[0] : looks_[looked_ % kLooks];
   const Look now{counters, overruns, now_ns};
   looks_[looked_++ % kLooks] = now;
@@ -56,12 +61,17 @@ void SensorWatch::judge(const Look& before, const Look& now) {
   if (silent_ns >= kSilence_ns) see(SensorFault::silence, static_cast<double>(silent_ns) * 1e-9);
   if (const double packets = rate(&SourceCounters::packets); packets > kFlood * most_packets_per_s_)
     see(SensorFault::flood, packets);
+  if (const double slow = rate(&SourceCounters::slow_packets); slow > 0) {
+    slow_address_ = now.counters.slow_address;
+    see(SensorFault::slow, slow);
+  }
   if (const double second = rate(&SourceCounters::second_sensor_packets); second > kStrayPerSecond) {
-    second_ipv4_ = now.counters.second_ipv4;
+    second_address_ = now.counters.second_address;
     second_kind_ = now.counters.second_kind;
     see(SensorFault::second_sensor, second);
   }
   if (const double lost = rate(&SourceCounters::kernel_drops); lost > 0) see(SensorFault::queue_loss, lost);
+  if (const double cut = rate(&SourceCounters::overflow_returns); cut > 0) see(SensorFault::cut, cut);
   const double overruns = static_cast<double>(now.overruns - before.overruns) * per_s;
   if (overruns > 0) see(SensorFault::overrun, overruns);
   judge_foreign(before, now, per_s);
@@ -107,15 +117,17 @@ void SensorWatch::describe(services::Words& words) const {
 }
 
 void SensorWatch::tell(SensorFault fault, double value, services::Words& words) const {
-  const auto& from = second_ipv4_;
   switch (fault) {
     case SensorFault::silence:
       return words.add("no packets for %.1f s", value);
     case SensorFault::flood:
       return words.add("flood: %.0f packets/s, a sensor sends at most %.0f", value, most_packets_per_s_);
+    case SensorFault::slow:
+      return words.add("%s sends %.0f packets/s, too few for such a sensor: not used",
+                       to_text(slow_address_).data(), value);
     case SensorFault::second_sensor:
-      return words.add("packets of a second sensor at %u.%u.%u.%u%s: %.0f/s not used", from[0], from[1],
-                       from[2], from[3], in_brackets(second_kind_).data(), value);
+      return words.add("packets of a second sensor at %s%s: %.0f/s not used", to_text(second_address_).data(),
+                       in_brackets(second_kind_).data(), value);
     case SensorFault::other_model:
       return words.add("packets of another model, %llu bytes each%s: %.0f/s not used",
                        static_cast<unsigned long long>(foreign_size_), in_brackets(foreign_kind_).data(),
@@ -126,6 +138,8 @@ void SensorWatch::tell(SensorFault fault, double value, services::Words& words) 
       return words.add("%.0f %% of packets lost", value);
     case SensorFault::queue_loss:
       return words.add("%.0f packets/s lost in the socket's queue", value);
+    case SensorFault::cut:
+      return words.add("the cloud is cut, %.0f returns/s: raise max_returns", value);
     case SensorFault::duplicates:
       return words.add("%.0f %% of packets came again", value);
     case SensorFault::disorder:

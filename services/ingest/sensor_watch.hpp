@@ -15,11 +15,13 @@ namespace gvom::ingest {
 enum class SensorFault {
   silence,        ///< No packet for half a second.
   flood,          ///< More packets than one such sensor sends.
+  slow,           ///< The only sender has not a sensor's rate.
   second_sensor,  ///< Packets of this sensor's kind, of another sensor.
   other_model,    ///< Foreign packets, all of one size.
   garbage,        ///< Foreign packets of various sizes.
   loss,           ///< Columns that never came.
   queue_loss,     ///< Packets that the socket's queue had no room for.
+  cut,            ///< Returns beyond max_returns.
   duplicates,
   disorder,  ///< Packets out of order, or too late to be used.
   invalid,   ///< Columns that the sensor marks invalid.
@@ -61,7 +63,8 @@ class SensorWatch {
   std::int64_t heard_ns_;  // when packets last came
   std::int64_t now_ns_;
   Sightings<SensorFault> seen_;
-  std::array<std::uint8_t, 4> second_ipv4_{};
+  Address slow_address_{};
+  Address second_address_{};
   KindText second_kind_{};
   KindText foreign_kind_{};
   std::uint64_t foreign_size_ = 0;

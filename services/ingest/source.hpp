@@ -1,7 +1,6 @@
 // Where sweeps come from: a recording or a live sensor, through the same decoder.
 #pragma once
 
-#include <array>
 #include <chrono>
 #include <cstdint>
 #include <memory>
@@ -12,6 +11,7 @@
 #include <tl/expected.hpp>
 
 #include "core/sweep.hpp"
+#include "services/ingest/address.hpp"
 
 namespace gvom::ingest {
 
@@ -20,12 +20,14 @@ using KindText = std::array<char, 64>;
 
 /// Why input was not used. Everything that is dropped is in exactly one of these.
 struct SourceCounters {
-  std::uint64_t packets = 0;                ///< Packets handed to the decoder.
-  std::uint64_t sweeps = 0;                 ///< Sweeps handed out (complete or not).
-  std::uint64_t incomplete_sweeps = 0;      ///< ... of these, with columns missing.
-  std::uint64_t dropped_sweeps = 0;         ///< Under `min_sweep_fraction`, not handed out.
+  std::uint64_t packets = 0;            ///< Packets handed to the decoder.
+  std::uint64_t sweeps = 0;             ///< Sweeps handed out (complete or not).
+  std::uint64_t incomplete_sweeps = 0;  ///< ... of these, with columns missing.
+  /// Not handed out: under `min_sweep_fraction`, or live of a sender that has not had a sensor's rate yet.
+  std::uint64_t dropped_sweeps = 0;
   std::uint64_t foreign_packets = 0;        ///< Another size, another protocol, a frame of another time.
   std::uint64_t second_sensor_packets = 0;  ///< Of this sensor's kind, but of another sensor.
+  std::uint64_t slow_packets = 0;           ///< Live, of a sender that has not had a sensor's rate.
   std::uint64_t truncated_packets = 0;      ///< Captured shorter than sent.
   std::uint64_t duplicate_packets = 0;
   std::uint64_t out_of_order_packets = 0;  ///< Late, but still of the open sweep: used.
@@ -42,9 +44,10 @@ struct SourceCounters {
   std::uint64_t foreign_size_changes = 0;  ///< Foreign packets of another size than the foreign one before.
   std::uint64_t foreign_size = 0;          ///< Of the newest foreign packet, bytes.
   std::uint64_t side_packets = 0;          ///< Of the foreign ones, the sensor's own: IMU, position, zones.
-  std::array<std::uint8_t, 4> second_ipv4{};  ///< Who sent the newest packet of a second sensor.
-  KindText foreign_kind{};                    ///< Whose the newest foreign packet is, if its bytes prove it.
-  KindText second_kind{};                     ///< Whose the newest packet of a second sensor is, likewise.
+  Address slow_address{};                  ///< Who sent the newest slow packet.
+  Address second_address{};                ///< Who sent the newest packet of a second sensor.
+  KindText foreign_kind{};                 ///< Whose the newest foreign packet is, if its bytes prove it.
+  KindText second_kind{};                  ///< Whose the newest packet of a second sensor is, likewise.
 };
 
 /// What `Source::next` found.
@@ -91,6 +94,9 @@ class Source {
   /// More packets in a second do not come from one sensor of this kind; 0: not known.
   [[nodiscard]] virtual double most_packets_per_s() const { return 0; }
 
+  /// Returns that a sweep can have, by what is known of the sensor; 0: not known.
+  [[nodiscard]] virtual std::size_t most_returns() const { return 0; }
+
   /// For sensors without absolute time (Velodyne counts microseconds past the hour): a time near now
   /// on the odometry's clock, from which the hour is taken. Others ignore it.
   virtual void set_time_hint(std::int64_t stamp_ns) = 0;
@@ -100,6 +106,9 @@ class Source {
   /// Things a person should hear of once, such as metadata keys that were missing and what stands in.
   [[nodiscard]] virtual const std::vector<std::string>& warnings() const = 0;
 };
+
+/// What is wrong with `max_returns` of the lidar: less than a sweep can have. Empty if it is well.
+std::string lack_of_room(const std::string& lidar, std::size_t max_returns, const Source& source);
 
 /// Opens `ouster:FILE.pcap?meta=FILE.json`, `ouster-udp:PORT?meta=FILE.json`, `velodyne:FILE.pcap?model=M`,
 /// `velodyne-udp:PORT?model=M` (M: see known_velodyne_models()) or `scans:PATH`; README.md has all options.

@@ -1,7 +1,6 @@
 #include "services/ingest/udp_receiver.hpp"
 
-#include <arpa/inet.h>
-#include <netinet/in.h>
+#include <net/if.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -9,6 +8,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <utility>
 
 #include "ipc/clock.hpp"
 
@@ -16,19 +16,6 @@ namespace gvom::ingest {
 namespace {
 
 constexpr std::size_t kMaxDatagram = 65536;
-
-void enlarge_buffer(int socket, std::uint16_t port, SourceState& state) {
-  if (::setsockopt(socket, SOL_SOCKET, SO_RCVBUFFORCE, &kWantedBuffer, sizeof kWantedBuffer) != 0) {
-    ::setsockopt(socket, SOL_SOCKET, SO_RCVBUF, &kWantedBuffer, sizeof kWantedBuffer);
-  }
-  int granted = 0;
-  socklen_t size = sizeof granted;
-  ::getsockopt(socket, SOL_SOCKET, SO_RCVBUF, &granted, &size);
-  if (granted / 2 >= kSufficientBuffer) return;  // the kernel reports the double
-  state.warnings.push_back("UDP port " + std::to_string(port) + ": the kernel grants a receive buffer of " +
-                           std::to_string(granted / 2048) + " KiB only; raise net.core.rmem_max to " +
-                           std::to_string(kWantedBuffer));
-}
 
 /// What the kernel says beside a packet.
 struct Beside {
@@ -49,17 +36,12 @@ Beside read_beside(msghdr& message, std::uint32_t drops_before) {
   return beside;
 }
 
-/// Why a port cannot be had. What another process or a network has not yet made ready may be there later.
-SourceError bind_error(const std::string& what) {
-  const auto kind = errno == EACCES ? SourceError::Kind::bad_data : SourceError::Kind::unavailable;
-  return {what + ": " + std::strerror(errno), kind};
-}
-
 }  // namespace
 
-UdpReceiver::UdpReceiver(int socket, std::uint16_t port, SourceState& state)
+UdpReceiver::UdpReceiver(int socket, UdpOptions options, SourceState& state)
     : socket_(socket),
-      port_(port),
+      options_(std::move(options)),
+      interface_(::if_nametoindex(options_.interface.c_str())),
       state_(state),
       buffer_(kMaxDatagram),
       not_before_ns_(ipc::monotonic_ns()) {}
@@ -68,27 +50,16 @@ UdpReceiver::~UdpReceiver() {
   ::close(socket_);
 }
 
-tl::expected<std::unique_ptr<UdpReceiver>, SourceError> UdpReceiver::open(std::uint16_t port,
-                                                                          const std::string& bind_address,
+tl::expected<std::unique_ptr<UdpReceiver>, SourceError> UdpReceiver::open(const UdpOptions& options,
                                                                           SourceState& state) {
-  sockaddr_in local{};
-  local.sin_family = AF_INET;
-  local.sin_port = htons(port);
-  if (!bind_address.empty() && ::inet_pton(AF_INET, bind_address.c_str(), &local.sin_addr) != 1) {
-    return tl::unexpected("bind: '" + bind_address + "' is not an IPv4 address");
-  }
-  const int socket = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-  if (socket < 0) return tl::unexpected(bind_error("UDP socket"));
-  std::unique_ptr<UdpReceiver> receiver(new UdpReceiver(socket, port, state));
-  enlarge_buffer(socket, port, state);
-  const int on = 1;
-  ::setsockopt(socket, SOL_SOCKET, SO_RXQ_OVFL, &on, sizeof on);
-  ::setsockopt(socket, SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on);
-  if (::bind(socket, reinterpret_cast<const sockaddr*>(&local), sizeof local) != 0) {
-    return tl::unexpected(
-        bind_error("UDP port " + std::to_string(port) + (bind_address.empty() ? "" : " on " + bind_address)));
-  }
-  return receiver;
+  const auto socket = open_udp_socket(options, state.warnings);
+  if (!socket) return tl::unexpected(socket.error());
+  return std::unique_ptr<UdpReceiver>(new UdpReceiver(*socket, options, state));
+}
+
+/// An interface that was taken away and came back is another one, of which nothing is joined.
+bool UdpReceiver::interface_is_gone() const {
+  return !options_.interface.empty() && ::if_nametoindex(options_.interface.c_str()) != interface_;
 }
 
 tl::expected<PacketEvent, std::string> UdpReceiver::next(Packet& out, std::chrono::milliseconds timeout) {
@@ -96,11 +67,14 @@ tl::expected<PacketEvent, std::string> UdpReceiver::next(Packet& out, std::chron
   if (!received || *received == PacketEvent::packet) return received;
   pollfd wait{socket_, POLLIN, 0};
   const int ready = ::poll(&wait, 1, static_cast<int>(std::max<std::int64_t>(0, timeout.count())));
-  return ready > 0 ? receive(out) : received;
+  if (ready > 0) return receive(out);
+  if (timeout.count() > 0 && interface_is_gone())
+    return tl::unexpected(to_text(options_) + ": the interface is gone");
+  return received;
 }
 
 tl::expected<PacketEvent, std::string> UdpReceiver::receive(Packet& out) {
-  sockaddr_in sender{};
+  sockaddr_storage sender{};
   iovec space{buffer_.data(), buffer_.size()};
   alignas(cmsghdr) char control[128];
   msghdr message{};
@@ -116,7 +90,7 @@ tl::expected<PacketEvent, std::string> UdpReceiver::receive(Packet& out) {
     const bool nothing = errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR || errno == ECONNREFUSED;
     if (errno == EAGAIN || errno == EWOULDBLOCK) not_before_ns_ = asked_ns;
     if (nothing) return PacketEvent::idle;
-    return tl::unexpected("UDP port " + std::to_string(port_) + ": " + std::strerror(errno));
+    return tl::unexpected(to_text(options_) + ": " + std::strerror(errno));
   }
   const Beside beside = read_beside(message, kernel_drops_);
   state_.counters.kernel_drops += beside.drops - kernel_drops_;
@@ -126,8 +100,8 @@ tl::expected<PacketEvent, std::string> UdpReceiver::receive(Packet& out) {
   out.size = static_cast<std::size_t>(size);
   out.capture_ns = beside.arrived_ns;
   out.received_ns = received_at(beside.arrived_ns);
-  std::memcpy(out.source.data(), &sender.sin_addr, sizeof sender.sin_addr);
-  out.port = port_;
+  out.source = address_of(sender);
+  out.port = options_.port;
   return PacketEvent::packet;
 }
 
@@ -141,7 +115,7 @@ std::int64_t UdpReceiver::received_at(std::int64_t arrived_ns) {
 }
 
 tl::expected<void, std::string> UdpReceiver::rewind() {
-  return tl::unexpected("UDP port " + std::to_string(port_) + ": a live source cannot start again");
+  return tl::unexpected(to_text(options_) + ": a live source cannot start again");
 }
 
 }  // namespace gvom::ingest

@@ -14,6 +14,7 @@ namespace {
 constexpr int kTurn = 36000;     // 1/100 degree
 constexpr int kMaxJitter = 100;  // the azimuth of a turning sensor goes back no further than this
 constexpr double kMaxTurnsPerSecond = 25.0;
+constexpr double kTurnsPerSecond = 10;            // as it leaves the factory
 constexpr std::int64_t kMaxTurnNs = 500'000'000;  // the slowest turn is 0.2 s
 constexpr std::uint32_t kHourUs = 3'600'000'000u;
 constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180.0;
@@ -86,6 +87,21 @@ std::uint64_t VelodyneDecoder::sensor_id(const Packet& packet) const {
 
 double VelodyneDecoder::most_packets_per_s() const {
   return most_packets(model_);
+}
+
+double VelodyneDecoder::least_packets_per_s() const {
+  return most_packets(model_) / 2;  // single return
+}
+
+std::size_t VelodyneDecoder::most_returns() const {
+  const double sequences = 1e6 / model_.sequence_us / kTurnsPerSecond;
+  const double per_sequence = 32.0 * model_.banks;
+  return static_cast<std::size_t>(std::ceil(sequences) * per_sequence) *
+         (dual_ || marks_.returns == VelodyneReturns::dual ? 2 : 1);
+}
+
+void VelodyneDecoder::expect_like(const Packet& packet) {
+  dual_ = marks_.returns_of(packet.data) == VelodyneReturns::dual;
 }
 
 void VelodyneDecoder::reset() {

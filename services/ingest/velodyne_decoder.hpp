@@ -28,6 +28,9 @@ class VelodyneDecoder final : public Decoder {
   [[nodiscard]] std::string override_advice(const Packet& packet) const override;
   [[nodiscard]] std::uint64_t sensor_id(const Packet& packet) const override;
   [[nodiscard]] double most_packets_per_s() const override;
+  [[nodiscard]] double least_packets_per_s() const override;
+  [[nodiscard]] std::size_t most_returns() const override;
+  void expect_like(const Packet& packet) override;
   bool decode(const Packet& packet, Sweep& out) override;
   [[nodiscard]] std::optional<std::int64_t> packet_time_ns() const override { return packet_time_ns_; }
   bool finish(Sweep& out) override;

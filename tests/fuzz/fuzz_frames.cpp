@@ -22,8 +22,8 @@ struct Parser {
 /// Kept from input to input, for the room of their fragments: finish() makes them as new.
 std::vector<std::unique_ptr<Parser>> make_parsers() {
   std::vector<std::unique_ptr<Parser>> parsers;
-  for (const int link_type :
-       {DLT_EN10MB, DLT_LINUX_SLL, DLT_LINUX_SLL2, DLT_NULL, DLT_LOOP, DLT_RAW, DLT_IPV4, DLT_IPV6}) {
+  for (const int link_type : {DLT_EN10MB, DLT_LINUX_SLL, DLT_LINUX_SLL2, DLT_NULL, DLT_LOOP, DLT_RAW,
+                              DLT_IPV4, DLT_IPV6, DLT_PPP}) {
     require(ingest::FrameParser::supports(link_type), "the link type is known");
     parsers.push_back(std::make_unique<Parser>(link_type, std::nullopt));
     parsers.push_back(std::make_unique<Parser>(link_type, 7502));

@@ -1,4 +1,5 @@
 // Source URIs, their options and ports; nothing is opened.
+#include "services/ingest/udp_socket.hpp"
 #include "services/ingest/uri.hpp"
 #include "tests/fuzz/input.hpp"
 
@@ -16,6 +17,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto port = ingest::parse_port(uri->path);
   require(!port || *port > 0, "port 0 is none");
   (void)ingest::port_option(*uri);
+  (void)ingest::from_option(*uri);
+  if (const auto live = ingest::udp_options(*uri)) {
+    require(!live->group || ingest::is_multicast(*live->group), "a group is a multicast group");
+    require(!live->group || !live->bind, "a group is no address of this machine");
+  }
   (void)ingest::check_options(*uri, {"meta", "port"});
   return 0;
 }

@@ -1,4 +1,6 @@
 // fuzz_seeds DIR: writes the first inputs of every fuzz target to DIR/TARGET/. Synthetic, nothing recorded.
+#include <zlib.h>
+
 #include "tests/fuzz/seeds.hpp"
 
 #include <initializer_list>
@@ -117,6 +119,17 @@ void add_captures(Seeds& seeds) {
     add_frame(one, bytes);
     add_frame(raw, ByteVector(bytes.begin() + 14, bytes.end()));
   }
+  const ByteVector ip(frames[0].begin() + 14, frames[0].end());
+  const ByteVector cooked{0, 0, 0,    1,    0, 6, 0,    0,    0, 0, 0,    0,
+                          0, 0, 0x88, 0xA8, 0, 5, 0x81, 0x00, 0, 6, 0x08, 0x00};
+  ByteVector tagged{2}, ppp{16};
+  for (const ByteVector& header : {cooked, ByteVector{0xFF, 0x03, 0x00, 0x21}}) {
+    ByteVector bytes = header;
+    append(bytes, ip);
+    add_frame(header == cooked ? tagged : ppp, bytes);
+  }
+  seeds.add("frames", tagged);
+  seeds.add("frames", ppp);
   seeds.add("frames", one);
   seeds.add("frames", raw);
 
@@ -128,6 +141,14 @@ void add_captures(Seeds& seeds) {
       seeds.add("pcap", file_bytes(pcap.write()));
     }
   }
+  PcapWriter snapped(path, 1);
+  for (const ByteVector& bytes : frames) snapped.add(bytes, 1'500'000'000, 4);
+  seeds.add("pcap", file_bytes(snapped.write()));
+  const ByteVector plain = file_bytes(path);
+  const gzFile packed = ::gzopen(path.c_str(), "wb");
+  ::gzwrite(packed, plain.data(), static_cast<unsigned>(plain.size()));
+  ::gzclose(packed);
+  seeds.add("pcap", file_bytes(path));
   std::filesystem::remove(path);
   ByteVector ng;  // a section, an interface, a packet
   for (const std::uint32_t word : {0x0A0D0D0Au, 28u, 0x1A2B3C4Du, 0x00000001u, ~0u, ~0u, 28u})
@@ -182,7 +203,8 @@ void add_texts(Seeds& seeds) {
   seeds.add("tum", std::string("1311868163.869999886 -1e-3 +2 .5 1 0 0 0\n"));
   for (const char* uri :
        {"ouster:a.pcap?meta=b.json&port=7502", "velodyne-udp:2368?model=VLP-16&bind=10.0.0.1", "scans:folder",
-        "ouster-udp:7502?meta=c"}) {
+        "ouster-udp:7502?meta=c", "ouster-udp:7502?group=239.201.201.201&interface=eth1&from=10.0.0.7",
+        "velodyne-udp:2368?model=VLP-16&bind=fe80::1%eth1"}) {
     seeds.add("uri", std::string(uri));
   }
   const std::string vehicles = GVOM_SOURCE_DIR "/config/vehicles/";

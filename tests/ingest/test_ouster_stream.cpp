@@ -201,7 +201,7 @@ TEST_CASE("a sensor that got another address is taken up again") {
                           .whole_frame(4, {9, 7502, 1})
                           .play();
   CHECK(sweeps.size() == 2);
-  CHECK(stream.counters().second_sensor_packets == 7);
+  CHECK(stream.counters().second_sensor_packets == 8);
 }
 
 TEST_CASE("a frame's packets that come ten times over are duplicates, and no stream that starts again") {

@@ -102,7 +102,7 @@ TEST_CASE("each fault is told in words and numbers") {
   check_told("packets of a second sensor at 127.0.0.2: 120/s not used", [](SourceCounters& counters) {
     counters.packets += 12;
     counters.second_sensor_packets += 12;
-    counters.second_ipv4 = {127, 0, 0, 2};
+    counters.second_address = ingest::parse_address("127.0.0.2").value();
   });
   check_told("packets of another model, 1206 bytes each: 600/s not used", [](SourceCounters& counters) {
     counters.packets += 60;
@@ -120,7 +120,7 @@ TEST_CASE("each fault is told in words and numbers") {
              [](SourceCounters& counters) {
                counters.packets += 12;
                counters.second_sensor_packets += 12;
-               counters.second_ipv4 = {10, 0, 0, 2};
+               counters.second_address = ingest::parse_address("10.0.0.2").value();
                counters.second_kind = {"serial number 6"};
              });
   check_told("garbage: 600 packets/s not used", [](SourceCounters& counters) {
@@ -134,6 +134,11 @@ TEST_CASE("each fault is told in words and numbers") {
     counters.columns -= 512;
     counters.invalid_columns += 512;
   });
+}
+
+TEST_CASE("a cloud that max_returns cuts is told of") {
+  check_told("the cloud is cut, 20480 returns/s: raise max_returns",
+             [](SourceCounters& counters) { counters.overflow_returns += 2048; });
 }
 
 TEST_CASE("a flood is more than a sensor can send, and names what it consists of") {
@@ -152,6 +157,20 @@ TEST_CASE("sweeps that the loop was too slow for") {
   sensor.overrun();
   sensor.live(5);
   CHECK(sensor.says() == "2 sweeps/s dropped, waiting to be mapped");
+}
+
+TEST_CASE("a sender that is too slow for a sensor is told of, and that of the sensor nothing comes") {
+  Sensor sensor;
+  sensor.live(12, [tenth = 0](SourceCounters& counters) mutable {
+    counters.packets -= 64;
+    counters.columns -= 1024;
+    if (++tenth % 2 != 0) return;
+    ++counters.packets;
+    ++counters.slow_packets;
+    counters.slow_address = ingest::parse_address("fe80::7").value();
+  });
+  CHECK(sensor.says() ==
+        "no packets for 1.2 s; fe80::7 sends 6 packets/s, too few for such a sensor: not used");
 }
 
 TEST_CASE("a stray packet, a few lost columns and what comes once are no faults") {

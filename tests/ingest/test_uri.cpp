@@ -25,7 +25,7 @@ TEST_CASE("URIs that cannot be right are refused with the reason") {
   contains("ouster:a.pcap?meta", "expected key=value, got 'meta'");
   contains("ouster:a.pcap?meta=", "expected key=value");
   contains("ouster:a.pcap?meta=a&meta=b", "'meta' is given twice");
-  contains("ouster:a.pcap?metadata=a", "unknown option 'metadata' (ouster takes meta, port, serial)");
+  contains("ouster:a.pcap?metadata=a", "unknown option 'metadata' (ouster takes from, meta, port, serial)");
   contains("rosbag:a", "unknown scheme 'rosbag'");
   contains("ouster:a.pcap", "needs meta=FILE.json");
   contains("velodyne:a.pcap", "needs model=M (VLP-16, Puck-Hi-Res, VLP-32C, HDL-32, HDL-64E, VLS-128)");
@@ -36,6 +36,6 @@ TEST_CASE("URIs that cannot be right are refused with the reason") {
   contains("velodyne:a.pcap?model=VLP-16&model_byte=256",
            "model_byte '256' is not a whole number of at most 255");
   contains("velodyne-udp:70000?model=VLP-16", "'70000' is not a UDP port");
-  contains("velodyne-udp:2368?model=VLP-16&bind=nonsense", "'nonsense' is not an IPv4 address");
+  contains("velodyne-udp:2368?model=VLP-16&bind=nonsense", "'nonsense' is not an IPv4 or IPv6 address");
   contains("scans:a?t=1", "unknown option 't' (scans takes floats, time)");
 }

@@ -11,6 +11,7 @@
 #include <catch2/catch.hpp>
 
 #include "services/ingest/pcap_reader.hpp"
+#include "services/ingest/udp_receiver.hpp"
 #include "tests/tools/temporary_folder.hpp"
 #include "tools/play/player.hpp"
 
@@ -218,4 +219,30 @@ TEST_CASE("a host that is none is an error that names it") {
   const auto sender = UdpSender::open("no.such.host.invalid");
   REQUIRE(!sender);
   CHECK(sender.error().find("no.such.host.invalid") != std::string::npos);
+}
+
+TEST_CASE("a multicast group and an IPv6 address get packets as an IPv4 address does") {
+  const auto sent_and_come = [](const gvom::ingest::UdpOptions& where, const std::string& host,
+                                const std::string& interface) {
+    gvom::ingest::SourceState state;
+    const auto receiver = gvom::ingest::UdpReceiver::open(where, state);
+    REQUIRE(receiver);
+    auto sender = UdpSender::open(host, interface);
+    REQUIRE(sender);
+    const Bytes bytes{1, 2, 3};
+    REQUIRE(sender->send(bytes.data(), bytes.size(), where.port));
+    gvom::ingest::Packet packet;
+    const auto event = (*receiver)->next(packet, std::chrono::seconds(5));
+    return event && *event == gvom::ingest::PacketEvent::packet &&
+           Bytes(packet.data, packet.data + packet.size) == bytes;
+  };
+  const auto port = static_cast<std::uint16_t>(20000 + ::getpid() % 20000);
+  const auto group = gvom::ingest::parse_address("239.201.201.201");
+  CHECK(sent_and_come({port, {}, group, "lo"}, "239.201.201.201", "lo"));
+  CHECK_FALSE(UdpSender::open("239.201.201.201", "no-such0"));
+  if (std::ifstream("/proc/net/if_inet6").peek() == std::ifstream::traits_type::eof()) {
+    WARN("SKIPPED: no IPv6 on this machine");
+    return;
+  }
+  CHECK(sent_and_come({port, gvom::ingest::parse_address("::1"), {}, ""}, "::1", ""));
 }

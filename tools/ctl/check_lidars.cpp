@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "services/ingest/source_options.hpp"
-#include "services/ingest/udp_receiver.hpp"
+#include "services/ingest/udp_socket.hpp"
 #include "services/ingest/uri.hpp"
 #include "tools/ctl/check.hpp"
 #include "tools/ctl/udp_ports.hpp"
@@ -59,6 +59,9 @@ Finding check_source(const LidarConfig& lidar, Opened& opened) {
     if (auto taken = judge_owner(lidar, what)) return *taken;
     return {Level::error, what, source.error().what};
   }
+  if (auto lack = ingest::lack_of_room(lidar.name, static_cast<std::size_t>(lidar.max_returns), **source);
+      !lack.empty())
+    return {Level::error, what, std::move(lack)};
   std::string warnings;
   for (const std::string& warning : (*source)->warnings()) warnings += "; " + warning;
   opened.push_back(std::move(*source));

@@ -18,6 +18,7 @@ using services::ExitCode;
 struct Options {
   std::string file;
   std::string host = "127.0.0.1";
+  std::string interface;
   std::uint16_t port = 0;
   std::vector<std::string> mapped_ports;
   play::PlayOptions play;
@@ -25,12 +26,17 @@ struct Options {
 
 void add_options(CLI::App& app, Options& options) {
   app.set_version_flag("--version", std::string("gvom-play ") + GVOM_VERSION);
-  app.add_option("file", options.file, "a pcap or pcapng recording")->type_name("FILE.pcap")->required();
+  app.add_option("file", options.file, "a pcap or pcapng recording, or one packed by gzip")
+      ->type_name("FILE.pcap")
+      ->required();
   app.add_option("--rate", options.play.rate, "times the recorded pace")
       ->type_name("N")
       ->check(CLI::Range(0.001, 1000.0))
       ->capture_default_str();
-  app.add_option("--host", options.host, "where to")->capture_default_str();
+  app.add_option("--host", options.host, "where to: a name, an IPv4 or IPv6 address, a multicast group")
+      ->capture_default_str();
+  app.add_option("--interface", options.interface, "by which interface to a multicast group")
+      ->type_name("NAME");
   auto* port = app.add_option("--port", options.port, "send everything to this port (default: as recorded)")
                    ->type_name("P")
                    ->check(CLI::Range(1, 65535));
@@ -101,7 +107,7 @@ ExitCode run(int argc, char** argv) {
   ingest::SourceState state;
   auto recording = ingest::PcapReader::open(options->file, std::nullopt, state);
   if (!recording) return fail(recording.error(), ExitCode::bad_data);
-  auto sender = play::UdpSender::open(options->host);
+  auto sender = play::UdpSender::open(options->host, options->interface);
   if (!sender) return fail(sender.error(), ExitCode::unavailable);
 
   const auto start = std::chrono::steady_clock::now();
