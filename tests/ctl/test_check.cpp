@@ -89,6 +89,7 @@ TEST_CASE("check: what does not work here is an error, and the rest is looked at
   };
   fails({"lidars.front.source=ouster:gone.pcap?meta=front.json"}, "error    lidar front       gone.pcap");
   fails({"lidars.front.source=ouster-udp:17502?meta=gone.json"}, "error    lidar front       gone.json");
+  fails({"lidars.front.max_returns=1000"}, "error    lidar front       lidars.front.max_returns is 1000");
   fails({"lidars.rear.source="}, "error    lidar rear        lidars.rear.source is empty");
   fails({"odometry.source=tum:gone.tum"}, "error    odometry          gone.tum");
   fails({"map.size_xy=1024", "map.size_z=256"}, "error    pools             the shared-memory pool of");

@@ -183,6 +183,14 @@ TEST_CASE("a port that another process has is not there yet: to be tried again")
   ::close(other);
 }
 
+TEST_CASE("a sweep can have more returns than max_returns: refused, with the number that is needed") {
+  const Drive drive;
+  const Vehicle small = drive.with("lidars.front.max_returns=65000");  // 64 beams, 1024 columns
+  const Words words{"lidars.front.max_returns is 65000", "make it 65536"};
+  check_refused("gvom-ingest", small.arguments({"--lidar", "front"}), drive.folder(), kConfiguration, words);
+  check_refused("gvom-map", small.arguments({"--out", "m"}), drive.folder(), kBadData, words);
+}
+
 TEST_CASE("folders that cannot be written") {
   const Drive drive;
   write_text(drive.path("file"), "");

@@ -56,7 +56,8 @@ Finding check_source(const LidarConfig& lidar, Opened& opened) {
     return {Level::error, what, fmt::format("lidars.{}.source is empty: give one", lidar.name)};
   auto source = ingest::open_source(lidar.source, ingest::source_options(lidar));
   if (!source) {
-    if (auto taken = judge_owner(lidar, what)) return *taken;
+    const bool port = source.error().kind == ingest::SourceError::Kind::unavailable;
+    if (auto taken = port ? judge_owner(lidar, what) : std::nullopt) return *taken;
     return {Level::error, what, source.error().what};
   }
   if (auto lack = ingest::lack_of_room(lidar.name, static_cast<std::size_t>(lidar.max_returns), **source);

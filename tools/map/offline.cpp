@@ -76,6 +76,8 @@ OfflineExpected<void> OfflineMapper::add_lidar(const services::VehicleConfig& co
   const auto max_returns = static_cast<std::size_t>(lidar.max_returns);
   auto source = ingest::open_source(lidar.source, ingest::source_options(lidar));
   if (!source) return bad_data("lidar " + lidar.name + ": " + source.error().what);
+  if (const auto lack = ingest::lack_of_room(lidar.name, max_returns, **source); !lack.empty())
+    return bad_data(lack);
   if ((*source)->is_live()) return bad_data("lidar " + lidar.name + ": " + lidar.source + " is live");
   auto opened = open_voxelizer(lidar.backend,
                                {config.mapper.map, lidar.geometry, config.mapper.vehicle, max_returns, {}});
