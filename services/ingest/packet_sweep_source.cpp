@@ -14,6 +14,28 @@ constexpr int kUnrecognisedBeforeWarning = 500;
 constexpr std::int64_t kMaxOvertimeNs = 50'000'000;
 constexpr std::int64_t kSilenceNs = 1'000'000'000;
 
+std::string why_no_sweep(const SourceCounters& c) {
+  const std::pair<std::uint64_t, const char*> reasons[] = {
+      {c.dropped_sweeps, "sweeps of less than min_sweep_fraction of their columns"},
+      {c.foreign_packets, "packets that are not of such a sensor"},
+      {c.second_sensor_packets, "packets of another such sensor"},
+      {c.slow_packets, "packets of a sender that is too slow"},
+      {c.truncated_packets, "packets captured shorter than sent"},
+      {c.late_packets, "packets of a sweep that is closed"},
+      {c.duplicate_packets, "packets that came again"},
+      {c.lost_fragments, "datagrams of which a fragment is missing"},
+      {c.invalid_columns, "columns that the sensor marks invalid"},
+  };
+  std::string text = "no sweep came of " + std::to_string(c.packets) + " packets";
+  const char* between = ": ";
+  for (const auto& [count, what] : reasons) {
+    if (count == 0) continue;
+    text += between + std::to_string(count) + " " + what;
+    between = ", ";
+  }
+  return text;
+}
+
 }  // namespace
 
 PacketSweepSource::PacketSweepSource(std::unique_ptr<SourceState> state,
@@ -187,6 +209,7 @@ tl::expected<SourceEvent, std::string> PacketSweepSource::end(Sweep& out) {
     ended_ = true;
     return hand_out(out);
   }
+  if (!ended_ && state_->counters.sweeps == 0) state_->warnings.push_back(why_no_sweep(state_->counters));
   ended_ = true;
   if (!error_) return SourceEvent::kEnd;
   const std::string error = std::move(*error_);

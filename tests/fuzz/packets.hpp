@@ -47,7 +47,7 @@ inline void play(Input& input, std::unique_ptr<ingest::SourceState> state,
                  std::unique_ptr<ingest::PacketSource> packets, std::unique_ptr<ingest::Decoder> decoder,
                  std::size_t max_returns) {
   constexpr std::int64_t kMaxStamp_ns = 4'000'000'000'000'000'000;  // what the bus lets through
-  ingest::PacketSweepSource source(std::move(state), std::move(packets), std::move(decoder));
+  ingest::PacketSweepSource source(std::move(state), std::move(packets), std::move(decoder), {});
   Sweep sweep;
   for (;;) {
     if (source.is_live()) source.set_time_hint(input.value<std::int64_t>() % kMaxStamp_ns);

@@ -357,8 +357,10 @@ TEST_CASE("turns of half the columns in half the time are not mapped as halves o
   half.play(0.5);
   CHECK(half.counters().dropped_sweeps == 6);
   CHECK(half.counters().sweeps == 0);
-  REQUIRE(half.warnings().size() == 1);
+  REQUIRE(half.warnings().size() == 2);
   CHECK(half.warnings()[0].find("turns end with column 7, the metadata has 16") == 0);
+  CHECK(half.warnings()[1].find("no sweep came of 12 packets: 6 sweeps of less than min_sweep_fraction") ==
+        0);
 
   OusterSensor lossy = sensor;  // whole turns, of which the second half is lost
   lossy.frame_ns = 100'000'000;

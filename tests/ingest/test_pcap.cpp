@@ -372,3 +372,16 @@ TEST_CASE("a pcapng of interfaces of several kinds is refused with what helps") 
   CHECK(error.find("a.pcapng: packet 1: ") != std::string::npos);
   CHECK(error.find("editcap -F pcap -T ether") != std::string::npos);
 }
+
+TEST_CASE("a recording that gives no sweep says why") {
+  TemporaryFolder folder;
+  const std::string meta = "?meta=" + write_text(folder.path() + "/meta.json", OusterSensor{}.json());
+  PcapWriter pcap(folder.path() + "/a.pcap");
+  for (int id = 1; id <= 5; ++id) pcap.add(frame(plain_packet({}, id, 4)));
+  pcap.add(frame(ByteVector(48)));
+  auto source = open("ouster:" + pcap.write() + meta);
+  CHECK(all_sweeps(*source).empty());
+  REQUIRE(source->warnings().size() == 1);
+  CHECK(source->warnings()[0].find("no sweep came of 6 packets: 5 sweeps of less than min_sweep_fraction of "
+                                   "their columns, 1 packets that are not of such a sensor") == 0);
+}
