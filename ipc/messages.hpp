@@ -127,6 +127,19 @@ struct Progress {
 
 enum class HealthState : std::uint32_t { starting = 0, ok = 1, degraded = 2, failed = 3, stopping = 4 };
 
+/// What an ingest makes of the ground around the vehicle.
+enum class GroundVerdict : std::uint32_t { none = 0, not_judged = 1, well = 2, wrong = 3 };
+
+/// The ground as one lidar sees it, held against where T_base_sensor and vehicle.base_height_m put it.
+struct Ground {
+  std::uint32_t verdict;  // GroundVerdict; none of a process without a lidar
+  std::uint32_t sweeps;   // that it is the median of; 0: the numbers below say nothing
+  float height_m;         // above -base_height_m, at base_link's origin
+  float slope_x;          // of the ground in base_link, m/m
+  float slope_y;
+  std::uint32_t on_the_way;  // 1 if the vehicle went on for some metres in these sweeps, so that slopes pass
+};
+
 /// Topic "health", at 1 Hz from every process.
 struct Health {
   static constexpr MessageType kType = MessageType::health;
@@ -145,6 +158,7 @@ struct Health {
   char backend_details[160];  // why this one, on what it runs, how it reaches the payloads: in words
   double rate_hz;             // of its product over the last second
   std::int64_t mono_ns;
+  Ground ground;
   struct Counter {
     char name[kNameLength];
     std::uint64_t value;

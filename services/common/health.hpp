@@ -46,6 +46,7 @@ class HealthReport {
   void set_state(ipc::HealthState state, std::string_view reason = {});  ///< Over-long reasons are cut.
   /// What computes, and why and on what; over-long details are cut.
   void set_backend(std::string_view name, std::string_view details);
+  void set_ground(const ipc::Ground& ground) { message_.ground = ground; }
   void count_product() { ++products_; }  ///< One more of what the process makes: rate_hz.
 
   [[nodiscard]] ipc::HealthState state() const { return static_cast<ipc::HealthState>(message_.state); }

@@ -56,6 +56,7 @@ IngestNode::IngestNode(const services::VehicleConfig& config, const services::Li
               [this] { bus_.waiter.wake(); }),
       odometry_(config.odometry,
                 reader_.is_live() ? OdometryIntake::Sweeps::live : OdometryIntake::Sweeps::recorded),
+      ground_(lidar.geometry, config.mapper.vehicle),
       sensor_watch_(reader_.is_live() ? reader_.most_packets_per_s() : 0, ipc::monotonic_ns()) {
   health_.set_backend(equipment.backend.name, equipment.backend.details);
   lifecycle_.on_stop([this] { bus_.waiter.wake(); });
@@ -141,6 +142,7 @@ void IngestNode::map_sweep(const Sweep& sweep) {
   if (!publish(sweep, *shape, begin_ns)) return;
   ++counters_.mapped_sweeps;
   counters_.add(mapper_.filter_counts());
+  ground_.see(sweep, mapper_.T_odom_base().translation_m);
   health_.count_product();
   last_map_ns_ = ipc::monotonic_ns();
   counters_.voxelize.record_ns(last_map_ns_ - begin_ns);
@@ -230,6 +232,7 @@ std::uint64_t IngestNode::judge(std::int64_t now_ns) {
     sensor_watch_.update(reader_.counters(), reader_.overruns().slow, now_ns);
     sensor_watch_.describe(words);
   }
+  ground_.describe(words);
   const std::uint64_t faults = sensor_watch_.faults() | std::uint64_t{odometry_.faults(now_ns)} << 32;
   const bool through = !reader_.is_live() && odometry_.has_ended();
   const bool stale = !through && now_ns - last_map_ns_ >= 1'000'000'000;
@@ -261,6 +264,7 @@ void IngestNode::send_health(std::int64_t now_ns) {
   counters_.take(odometry_.counts(), losses_);
   counters_.lost_poses = bus_.odometry.counters().lost;
   counters_.report();
+  health_.set_ground(ground_.ground());
   const ipc::Health& health = health_.take(now_ns);
   char status[128];
   std::snprintf(status, sizeof status, "%.1f maps/s, %s, %llu of %llu sweeps mapped", health.rate_hz,

@@ -18,6 +18,7 @@
 #include "services/common/log.hpp"
 #include "services/common/vehicle_config.hpp"
 #include "services/ingest/fusion_credit.hpp"
+#include "services/ingest/ground_check.hpp"
 #include "services/ingest/ingest_counters.hpp"
 #include "services/ingest/odometry_intake.hpp"
 #include "services/ingest/sensor_watch.hpp"
@@ -93,6 +94,7 @@ class IngestNode {
   FusionCredit credit_;
   SweepReader reader_;
   OdometryIntake odometry_;
+  GroundCheck ground_;
   SensorWatch sensor_watch_;
   SweepLosses losses_;
 

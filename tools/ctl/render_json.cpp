@@ -18,6 +18,21 @@ Json text_or_null(const std::string& text) {
   return text.empty() ? Json() : Json(text);
 }
 
+Json json_of(const std::optional<GroundView>& ground) {
+  if (!ground) return Json();
+  Json json = {{"verdict", to_string(ground->verdict)},
+               {"sweeps", ground->sweeps},
+               {"on_the_way", ground->on_the_way},
+               {"height_m", Json()},
+               {"slope_x", Json()},
+               {"slope_y", Json()}};
+  if (ground->sweeps == 0) return json;
+  json["height_m"] = ground->height_m;
+  json["slope_x"] = ground->slope_x;
+  json["slope_y"] = ground->slope_y;
+  return json;
+}
+
 Json json_of(const ProcessView& process) {
   Json json = {{"name", process.name},
                {"state", to_string(process.state)},
@@ -29,6 +44,7 @@ Json json_of(const ProcessView& process) {
                {"restarts", or_null(process.restarts)},
                {"memory_bytes", process.usage ? Json(process.usage->private_bytes) : Json()},
                {"cpu_s", process.usage ? Json(process.usage->cpu_s) : Json()},
+               {"ground", json_of(process.ground)},
                {"backend", process.backend},
                {"backend_details", process.backend_details},
                {"version", text_or_null(process.version)},

@@ -64,6 +64,20 @@ void add_state(Exposition& out, const ProcessView& process, const Labels& labels
   gauge(out, "gvom_backend_info", "What computes, and on what.", backend, 1);
 }
 
+void add_ground(Exposition& out, const GroundView& ground, const Labels& labels) {
+  gauge(out, "gvom_ground_judged", "1 if the lidar saw enough ground to judge T_base_sensor by.", labels,
+        ground.verdict == ipc::GroundVerdict::not_judged ? 0 : 1);
+  gauge(out, "gvom_ground_wrong", "1 if the ground is not where the vehicle's file puts it.", labels,
+        ground.verdict == ipc::GroundVerdict::wrong ? 1 : 0);
+  if (ground.sweeps == 0) return;
+  gauge(out, "gvom_ground_height_metres", "The ground above where the vehicle's file puts it.", labels,
+        ground.height_m);
+  gauge(out, "gvom_ground_slope_x", "Of the ground in base_link, metres per metre ahead.", labels,
+        ground.slope_x);
+  gauge(out, "gvom_ground_slope_y", "Of the ground in base_link, metres per metre to the left.", labels,
+        ground.slope_y);
+}
+
 void add_usage(Exposition& out, const tools::Usage& usage, const Labels& labels) {
   gauge(out, "gvom_process_memory_bytes", "Memory of the process's own, without shared memory.", labels,
         usage.private_bytes);
@@ -136,6 +150,7 @@ std::string to_prometheus(const Snapshot& snapshot) {
   for (const ProcessView& process : snapshot.processes) {
     const Labels labels = {{"process", process.name}};
     add_state(out, process, labels);
+    if (process.ground) add_ground(out, *process.ground, labels);
     if (process.usage) add_usage(out, *process.usage, labels);
     add_counters(out, process, labels);
   }

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "tools/ctl/render.hpp"
 
@@ -36,6 +37,15 @@ std::string build_line(const char* before, const std::string& version, const std
   return before + ("gvom " + version) + (config_hash.empty() ? "" : ", configuration " + config_hash) + "\n";
 }
 
+std::string ground_line(const GroundView& ground) {
+  if (ground.sweeps == 0)
+    return "    ground: not judged: too little of it is seen between 3 and 15 m around the vehicle\n";
+  return fmt::format(
+      "    ground: {}: {:.2f} m {} where it should be, tilted by {:.1f} degrees, in {} sweeps{}\n",
+      to_string(ground.verdict), std::abs(ground.height_m), ground.height_m < 0 ? "below" : "above",
+      tilt_degrees(ground), ground.sweeps, ground.on_the_way ? " on the way" : "");
+}
+
 std::string process_lines(const ProcessView& process, bool without_file) {
   std::optional<double> memory_mb;
   if (process.usage) memory_mb = static_cast<double>(process.usage->private_bytes) * 1e-6;
@@ -46,6 +56,7 @@ std::string process_lines(const ProcessView& process, bool without_file) {
   if (process.state != ProcessState::ok && !process.reason.empty()) lines += "    " + process.reason + "\n";
   if (!process.backend.empty())
     lines += fmt::format("    on {}: {}\n", process.backend, process.backend_details);
+  if (process.ground) lines += ground_line(*process.ground);
   if (process.other_version || process.other_config || without_file)
     lines += build_line("    runs ", process.version, process.config_hash);
   return lines + drops_line(process);

@@ -17,7 +17,9 @@ constexpr char kBroker[] = "gvom-roudi";
 constexpr char kFusion[] = "gvom-fusion";
 constexpr double kSilent_s = 3.0;  // a Health comes once a second
 constexpr double kLayersOld_s = std::chrono::duration<double>(ipc::kDefaultMaxAge).count();
-constexpr double kOdometryOld_s = 2.0;        // 1 Hz is slow, but it is odometry
+constexpr double kOdometryOld_s = 2.0;   // 1 Hz is slow, but it is odometry
+constexpr double kGroundsApart_m = 0.2;  // of two lidars at the same time and place
+constexpr double kGroundsAngle_rad = 0.05;
 constexpr double kSweepSeen_fraction = 0.95;  // as an ingest judges its packets
 
 double seconds_since(std::int64_t then_ns, std::int64_t now_ns) {
@@ -77,6 +79,13 @@ void judge_silence(const Broker& broker, ProcessView& view) {
   }
 }
 
+std::optional<GroundView> view_of(const ipc::Ground& ground) {
+  const auto verdict = static_cast<ipc::GroundVerdict>(ground.verdict);
+  if (verdict == ipc::GroundVerdict::none) return std::nullopt;
+  return GroundView{verdict,        ground.sweeps,  ground.height_m,
+                    ground.slope_x, ground.slope_y, ground.on_the_way != 0};
+}
+
 std::string hash_text(std::uint64_t hash) {
   return fmt::format("{:016x}", hash);
 }
@@ -95,6 +104,7 @@ ProcessView view_of(const HeardProcess& heard, const Surroundings& surroundings,
   const auto stages = std::min<std::uint32_t>(health.stage_count, ipc::Health::kMaxStages);
   view.stages.assign(health.stages, health.stages + stages);
   view.usage = surroundings.usage(health.pid);
+  view.ground = view_of(health.ground);
   view.backend = ipc::text_of(health.backend);
   view.backend_details = ipc::text_of(health.backend_details);
   view.version = ipc::text_of(health.version);
@@ -241,9 +251,29 @@ void add_problems(const LidarView& lidar, std::vector<std::string>& problems) {
                                    100 * lidar.columns_seen_fraction));
 }
 
+/// Two lidars that agree with the vehicle's file, on the way, but not with each other.
+void compare_grounds(const std::vector<ProcessView>& processes, std::vector<std::string>& problems) {
+  const auto is_comparable = [](const ProcessView& process) {
+    return process.ground && process.ground->verdict == ipc::GroundVerdict::well &&
+           process.ground->on_the_way;
+  };
+  for (auto a = processes.begin(); a != processes.end(); ++a)
+    for (auto b = a + 1; b != processes.end(); ++b) {
+      if (!is_comparable(*a) || !is_comparable(*b)) continue;
+      const double apart_m = std::abs(a->ground->height_m - b->ground->height_m);
+      const double angle_rad = std::atan(
+          std::hypot(a->ground->slope_x - b->ground->slope_x, a->ground->slope_y - b->ground->slope_y));
+      if (apart_m <= kGroundsApart_m && angle_rad <= kGroundsAngle_rad) continue;
+      problems.push_back(
+          fmt::format("{} and {} see the ground {:.1f} m and {:.0f} degrees apart: is a T_base_sensor wrong?",
+                      tools::lidar_of(a->name), tools::lidar_of(b->name), apart_m, angle_rad * 180 / M_PI));
+    }
+}
+
 std::vector<std::string> problems_of(const Snapshot& snapshot) {
   std::vector<std::string> problems;
   for (const ProcessView& process : snapshot.processes) add_problems(process, snapshot.version, problems);
+  compare_grounds(snapshot.processes, problems);
   for (const std::string& refusal : snapshot.refusals) problems.push_back(refusal);
   if (snapshot.broker.state != BrokerState::up) return problems;
   if (!snapshot.broker.joined) {
@@ -271,6 +301,24 @@ std::vector<std::string> problems_of(const Snapshot& snapshot) {
 }
 
 }  // namespace
+
+double tilt_degrees(const GroundView& ground) {
+  return std::atan(std::hypot(ground.slope_x, ground.slope_y)) * 180 / M_PI;
+}
+
+const char* to_string(ipc::GroundVerdict verdict) {
+  switch (verdict) {
+    case ipc::GroundVerdict::none:
+      return "none";
+    case ipc::GroundVerdict::not_judged:
+      return "not judged";
+    case ipc::GroundVerdict::well:
+      return "well";
+    case ipc::GroundVerdict::wrong:
+      return "wrong";
+  }
+  return "none";
+}
 
 const char* to_string(ProcessState state) {
   constexpr const char* kWords[kProcessStates] = {"starting", "ok",   "degraded", "failed", "stopping",

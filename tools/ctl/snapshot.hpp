@@ -51,6 +51,16 @@ struct Drop {
   std::optional<double> per_s;  ///< Between its last two Healths.
 };
 
+/// Where a lidar sees the ground, against where the vehicle's file puts it.
+struct GroundView {
+  ipc::GroundVerdict verdict;
+  std::uint32_t sweeps;  ///< 0: none was found, and the numbers say nothing.
+  double height_m;       ///< Above it.
+  double slope_x;        ///< In base_link, m/m.
+  double slope_y;
+  bool on_the_way;
+};
+
 struct ProcessView {
   std::string name;
   ProcessState state = ProcessState::missing;
@@ -64,6 +74,7 @@ struct ProcessView {
   std::vector<ipc::Health::Stage> stages;
   std::optional<std::uint64_t> restarts;  ///< By systemd, since the unit was started by hand.
   std::optional<tools::Usage> usage;
+  std::optional<GroundView> ground;  ///< Of a lidar.
   std::string backend;
   std::string backend_details;
   std::string version;         ///< Of gvom; empty: not known.
@@ -105,6 +116,12 @@ struct Snapshot {
   std::vector<std::string> refusals;  ///< Why messages were not read, each reason once.
   std::vector<std::string> problems;  ///< Everything that is not as it should be; empty: all is well.
 };
+
+/// From level.
+double tilt_degrees(const GroundView& ground);
+
+/// "none", "not judged", "well" or "wrong".
+const char* to_string(ipc::GroundVerdict verdict);
 
 /// "starting", "ok", ..., "unknown".
 const char* to_string(ProcessState state);
