@@ -32,7 +32,7 @@ GroundCheck::GroundCheck(const LidarGeometry& lidar, const VehicleGeometry& vehi
 
 void GroundCheck::see(const Sweep& sweep, const Eigen::Vector3d& base_position_m) {
   if (has_looked_ && sweep.stamp_ns < looked_ns_) count_ = 0;  // a recording that begins anew
-  if (has_looked_ && sweep.stamp_ns >= looked_ns_ && sweep.stamp_ns - looked_ns_ < kPeriod_ns) return;
+  if (count_ >= kFewest && sweep.stamp_ns - looked_ns_ < kPeriod_ns) return;
   has_looked_ = true;
   looked_ns_ = sweep.stamp_ns;
   forget_old(sweep.stamp_ns);

@@ -13,9 +13,9 @@
 
 namespace gvom::ingest {
 
-/// Looks at a sweep each half second and takes medians over the last 16 s in which ground was found. Where
-/// the vehicle has come 8 m on in these, 0.2 m or 0.07 rad are wrong: slopes, ditches and kerbs do not last
-/// so long. Where it stands, they may: only 0.5 m or 0.2 rad are.
+/// Looks at a sweep each half second, at first at each, and takes medians over the last 16 s in which ground
+/// was found. Where the vehicle has come 8 m on in these, 0.2 m or 0.07 rad are wrong: slopes, ditches and
+/// kerbs do not last so long. Where it stands, they may: only 0.5 m or 0.2 rad are.
 class GroundCheck {
  public:
   GroundCheck(const LidarGeometry& lidar, const VehicleGeometry& vehicle);

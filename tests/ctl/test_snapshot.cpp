@@ -281,3 +281,52 @@ TEST_CASE("JSON has every figure, and null for what is not known") {
   CHECK(empty["layers"].is_null());
   CHECK(empty["odometry"].is_null());
 }
+
+namespace {
+
+ipc::Health ground_of(const char* process, ipc::GroundVerdict verdict, float height_m, float slope_x) {
+  ipc::Health health = health_of(process, HealthState::ok, kNow_ns);
+  health.ground = {static_cast<std::uint32_t>(verdict), 20, height_m, slope_x, 0, 1};
+  return health;
+}
+
+}  // namespace
+
+TEST_CASE("where a lidar sees the ground is told, also that it was not judged") {
+  VehicleAt vehicle;
+  vehicle.observed.add(ground_of("gvom-ingest-front", ipc::GroundVerdict::well, -0.05f, 0.01f));
+  ipc::Health rear = health_of("gvom-ingest-rear", HealthState::ok, kNow_ns);
+  rear.ground.verdict = static_cast<std::uint32_t>(ipc::GroundVerdict::not_judged);
+  vehicle.observed.add(rear);
+  const ctl::Snapshot snapshot = vehicle.snapshot();
+  CHECK(snapshot.problems.empty());
+  CHECK_THAT(
+      to_table(snapshot),
+      Contains("    ground: well: 0.05 m below where it should be, tilted by 0.6 degrees, in 20 sweeps "
+               "on the way\n") &&
+          Contains("    ground: not judged: too little of it is seen"));
+  const auto json = nlohmann::json::parse(to_json(snapshot));
+  CHECK(json["processes"][3]["ground"]["verdict"] == "well");
+  CHECK(json["processes"][3]["ground"]["height_m"] == Approx(-0.05));
+  CHECK(json["processes"][4]["ground"]["verdict"] == "not judged");
+  CHECK(json["processes"][4]["ground"]["height_m"].is_null());
+  CHECK(json["processes"][2]["ground"].is_null());
+  CHECK_THAT(to_prometheus(snapshot), Contains(R"(gvom_ground_judged{process="gvom-ingest-rear"} 0)") &&
+                                          Contains(R"(gvom_ground_wrong{process="gvom-ingest-front"} 0)"));
+}
+
+TEST_CASE("two lidars that see the ground at different heights or angles are a problem") {
+  VehicleAt vehicle;
+  const auto problems = [&](float height_m, float slope_x) {
+    vehicle.observed.add(ground_of("gvom-ingest-front", ipc::GroundVerdict::well, -0.12f, -0.03f));
+    vehicle.observed.add(ground_of("gvom-ingest-rear", ipc::GroundVerdict::well, height_m, slope_x));
+    return vehicle.snapshot().problems;
+  };
+  CHECK(problems(0.05f, 0.01f).empty());
+  CHECK(problems(0.15f, -0.03f) ==
+        std::vector<std::string>{
+            "front and rear see the ground 0.3 m and 0 degrees apart: is a T_base_sensor wrong?"});
+  CHECK(problems(-0.12f, 0.06f) ==
+        std::vector<std::string>{
+            "front and rear see the ground 0.0 m and 5 degrees apart: is a T_base_sensor wrong?"});
+}

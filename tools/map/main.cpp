@@ -79,6 +79,15 @@ void say_backends(const gvom::tools::OfflineMapper& mapper) {
   spdlog::info("fusion on {}: {}", mapper.fusion_backend().name, mapper.fusion_backend().details);
 }
 
+/// Where the newest sweeps found the ground, if that is not where the vehicle's file puts it.
+void say_grounds(const gvom::tools::OfflineMapper& mapper) {
+  for (const auto& lidar : mapper.lidars()) {
+    gvom::services::Words words;
+    lidar.ground->describe(words);
+    if (!words.empty()) spdlog::warn("lidar {}: {}", lidar.name, words.text());
+  }
+}
+
 int run(const gvom::services::VehicleConfig& config, const Options& options) {
   auto mapper = gvom::tools::OfflineMapper::open(config, options.odometry, !options.no_deskew);
   if (!mapper) {
@@ -111,6 +120,7 @@ int run(const gvom::services::VehicleConfig& config, const Options& options) {
   for (const auto& lidar : mapper->lidars())
     for (const std::string& line : gvom::ingest::explain(lidar.losses, mapper->odometry()))
       spdlog::warn("lidar {}: {}", lidar.name, line);
+  say_grounds(*mapper);
   spdlog::info("{} maps in {}; {} sweeps without odometry around them, {} maps refused", maps, options.out,
                mapper->sweeps_without_odometry(), mapper->maps_refused());
   return to_int(maps == 0 && code == ExitCode::ok ? ExitCode::bad_data : code);

@@ -87,6 +87,7 @@ OfflineExpected<void> OfflineMapper::add_lidar(const services::VehicleConfig& co
   added.source = std::move(*source);
   added.backend = {opened->name, opened->details};
   added.mapper = std::make_unique<SweepMapper>(config.mapper.map, std::move(opened->backend));
+  added.ground = std::make_unique<ingest::GroundCheck>(lidar.geometry, config.mapper.vehicle);
   lidars_.push_back(std::move(added));
   if (auto first = advance(lidars_.back()); !first) return tl::unexpected(first.error());
   return {};
@@ -116,6 +117,7 @@ OfflineExpected<bool> OfflineMapper::map_sweep(std::size_t index, MappedSweep& m
     return unavailable(written.error().what);
   const auto fused = fuse(index, std::move(map));
   if (!fused || !*fused) return fused;
+  lidar.ground->see(lidar.sweep, lidar.mapper->T_odom_base().translation_m);
   mapped = {lidar.name, lidar.sweep.stamp_ns, lidar.sweep.complete, lidar.mapper->filter_counts()};
   return true;
 }

@@ -15,6 +15,7 @@
 #include "core/open_backend.hpp"
 #include "services/common/exit_code.hpp"
 #include "services/common/vehicle_config.hpp"
+#include "services/ingest/ground_check.hpp"
 #include "services/ingest/odometry_intake.hpp"
 #include "services/ingest/source.hpp"
 
@@ -78,6 +79,7 @@ class OfflineMapper {
     Sweep sweep;  // the next one
     bool ended = false;
     ingest::SweepLosses losses;  // of sweeps that the odometry could not place; explain() has the words
+    std::unique_ptr<ingest::GroundCheck> ground;
   };
   [[nodiscard]] const std::vector<Lidar>& lidars() const { return lidars_; }
 
