@@ -42,6 +42,21 @@ struct Odometry {
   std::uint32_t reserved;
 };
 
+/// What an ingest makes of the ground around the vehicle.
+enum class GroundVerdict : std::uint32_t { none = 0, not_judged = 1, well = 2, wrong = 3 };
+
+/// The ground as one lidar sees it, held against where T_base_sensor and vehicle.base_height_m put it.
+struct Ground {
+  std::uint32_t verdict;  // GroundVerdict; none of a process without a lidar
+  std::uint32_t sweeps;   // that it is the median of; 0: the numbers below say nothing
+  float expected_z_m;     // where it should be in base_link: -base_height_m
+  float height_m;         // above that, at base_link's origin
+  float slope_x;          // of the ground in base_link, m/m
+  float slope_y;
+  std::uint32_t on_the_way;  // 1 if the vehicle went on for some metres in these sweeps, so that slopes pass
+  std::uint32_t reserved;
+};
+
 /// Voxels of a grid in bricks of 8 x 8 x 8 (R6): the header, then the arrays of BrickMapArrays as
 /// `brick_map_layout` has them. Topic "buffer_map" (one sweep of one lidar) and "voxel_map" (the fused map:
 /// counts summed over the window).
@@ -58,6 +73,7 @@ struct BrickMap {
   float columns_seen_fraction;  // of the sweep's columns, 0 .. 1; 1: it is complete
   std::uint32_t flags;          // Flags
   std::uint32_t reserved;
+  Ground ground;                     // of the sweeps before this one; verdict none in a voxel map
   std::uint64_t returns;             // that became hits or rays
   std::uint64_t dropped_not_finite;  // returns dropped by the filter (R2), this sweep
   std::uint64_t dropped_too_near;
@@ -86,6 +102,7 @@ struct LidarStatus {
   float columns_seen_fraction;  // of the columns of its newest sweep, 0 .. 1; 1: complete. 0: none came yet
   std::uint32_t unknown;        // 1: it publishes maps, but fusion's configuration does not have it: it is
                                 // missing, and its maps are never taken
+  Ground ground;                // as its newest map says
 };
 
 /// Topic "layers": the header, then 13 arrays of n_xy * n_xy values indexed [y][x], in the order of
@@ -126,19 +143,6 @@ struct Progress {
 };
 
 enum class HealthState : std::uint32_t { starting = 0, ok = 1, degraded = 2, failed = 3, stopping = 4 };
-
-/// What an ingest makes of the ground around the vehicle.
-enum class GroundVerdict : std::uint32_t { none = 0, not_judged = 1, well = 2, wrong = 3 };
-
-/// The ground as one lidar sees it, held against where T_base_sensor and vehicle.base_height_m put it.
-struct Ground {
-  std::uint32_t verdict;  // GroundVerdict; none of a process without a lidar
-  std::uint32_t sweeps;   // that it is the median of; 0: the numbers below say nothing
-  float height_m;         // above -base_height_m, at base_link's origin
-  float slope_x;          // of the ground in base_link, m/m
-  float slope_y;
-  std::uint32_t on_the_way;  // 1 if the vehicle went on for some metres in these sweeps, so that slopes pass
-};
 
 /// Topic "health", at 1 Hz from every process.
 struct Health {

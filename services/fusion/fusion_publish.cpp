@@ -95,6 +95,7 @@ void FusionNode::fill_lidars(ipc::Layers& header) const {
     status.maps_received = lidar.maps.counters().received;
     status.maps_lost = lidar.maps.counters().lost;
     status.columns_seen_fraction = lidar.columns_seen_fraction;
+    status.ground = lidar.ground;
   }
   unknown_.for_each(ipc::monotonic_ns(), [&header](std::string_view name) {
     if (header.lidar_count == kMaxLidars) return;  // Health names it all the same

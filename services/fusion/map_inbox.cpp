@@ -41,6 +41,7 @@ void MapInbox::note_fused(const ArrivedMap& map) {
   Lidar& lidar = lidars_[static_cast<std::size_t>(map.lidar)];
   lidar.newest_stamp_ns = map.sample->header().header.stamp_ns;
   lidar.columns_seen_fraction = map.sample->header().columns_seen_fraction;
+  lidar.ground = map.sample->header().ground;
 }
 
 void MapInbox::release(std::uint64_t token) {

@@ -44,6 +44,7 @@ class MapInbox {
     std::uint64_t taken_sequence = 0;
     std::int64_t newest_stamp_ns = 0;
     float columns_seen_fraction = 0;  // of the newest sweep
+    ipc::Ground ground{};             // as the newest map says
     std::uint64_t told_refusals = 0;
   };
   [[nodiscard]] const std::vector<Lidar>& lidars() const { return lidars_; }

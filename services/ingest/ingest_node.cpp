@@ -166,6 +166,7 @@ bool IngestNode::publish(const Sweep& sweep, const BrickMapShape& shape, std::in
   header.grid = mapper_.grid();
   header.T_odom_base = record_of(mapper_.T_odom_base());
   const FilterCounts& filter = mapper_.filter_counts();
+  header.ground = ground_.ground();
   header.columns_seen_fraction = static_cast<float>(sweep.columns_seen_fraction);
   header.flags = lossless_ ? ipc::BrickMap::kLossless : 0u;
   header.returns = filter.used;

@@ -286,7 +286,7 @@ namespace {
 
 ipc::Health ground_of(const char* process, ipc::GroundVerdict verdict, float height_m, float slope_x) {
   ipc::Health health = health_of(process, HealthState::ok, kNow_ns);
-  health.ground = {static_cast<std::uint32_t>(verdict), 20, height_m, slope_x, 0, 1};
+  health.ground = {static_cast<std::uint32_t>(verdict), 20, 0, height_m, slope_x, 0, 1, 0};
   return health;
 }
 

@@ -104,6 +104,7 @@ LidarLine line_of(const ipc::LidarStatus& status, std::int64_t stamp_ns) {
   line.maps_in_window = status.maps_in_window;
   line.missing = status.missing != 0;
   line.maps_lost = status.maps_lost;
+  line.ground = status.ground;
   if (status.newest_stamp_ns != 0) line.age_s = static_cast<double>(stamp_ns - status.newest_stamp_ns) * 1e-9;
   return line;
 }

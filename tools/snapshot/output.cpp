@@ -33,6 +33,8 @@ tl::expected<void, std::string> Output::write(const LayersPicture& picture) {
     if (auto written = write_panel(make_panel(static_cast<LayerId>(layer), picture)); !written)
       return written;
 
+  if (auto written = render_ground(picture).write_png(prefix + "ground.png"); !written) return written;
+
   if (options_.npy) {
     if (auto written = write_folder(prefix + number, picture); !written) return written;
   }

@@ -18,6 +18,7 @@ struct LidarLine {
   bool missing = false;         ///< One of the vehicle's lidars, but no map of it is in the window.
   double age_s = std::nan("");  ///< Its newest map against the layers' stamp; NaN: none came yet.
   std::uint64_t maps_lost = 0;
+  ipc::Ground ground{};  ///< As it sees it; verdict none: not known (in a folder of files).
 };
 
 /// The layers of one stamp. The arrays are borrowed: n_xy * n_xy values indexed [y][x], +x right (forward
