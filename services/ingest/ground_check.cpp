@@ -54,10 +54,10 @@ void GroundCheck::forget_old(std::int64_t stamp_ns) {
 void GroundCheck::judge() {
   ground_ = {};
   ground_.verdict = static_cast<std::uint32_t>(ipc::GroundVerdict::not_judged);
+  ground_.expected_z_m = static_cast<float>(-vehicle_.base_height_m);
   is_high_ = is_tilted_ = false;
   if (count_ == 0) return;
   ground_.sweeps = static_cast<std::uint32_t>(count_);
-  ground_.expected_z_m = static_cast<float>(-vehicle_.base_height_m);
   ground_.height_m = median(&GroundPlane::height_m) + static_cast<float>(vehicle_.base_height_m);
   ground_.slope_x = median(&GroundPlane::slope_x);
   ground_.slope_y = median(&GroundPlane::slope_y);

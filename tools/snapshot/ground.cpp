@@ -89,10 +89,11 @@ void draw_view(Canvas& canvas, const View& view, const LayersPicture& picture, c
   canvas.text({view.corner.x + kViewWidth - canvas.text_width(right, faint) - 6, view.corner.y + 16}, right,
               faint);
   draw_heights(canvas, view, picture);
+  if (ground.verdict != static_cast<std::uint32_t>(ipc::GroundVerdict::none))
+    draw_plane(canvas, view, ground.expected_z_m, 0, 2, kExpected);
   if (ground.sweeps > 0) {
     const bool wrong = ground.verdict == static_cast<std::uint32_t>(ipc::GroundVerdict::wrong);
     const double slope = view.axis == 0 ? ground.slope_x : ground.slope_y;
-    draw_plane(canvas, view, ground.expected_z_m, 0, 2, kExpected);
     draw_plane(canvas, view, double{ground.expected_z_m} + ground.height_m, slope, 3, wrong ? kAlarm : kWell);
   }
   const Point base = view.at(0, 0);
@@ -105,6 +106,8 @@ std::string words_of(const LidarLine& lidar) {
       ground.verdict == static_cast<std::uint32_t>(ipc::GroundVerdict::wrong)  ? "WRONG"
       : ground.verdict == static_cast<std::uint32_t>(ipc::GroundVerdict::well) ? "well"
                                                                                : "not judged";
+  if (ground.verdict == static_cast<std::uint32_t>(ipc::GroundVerdict::none))
+    return lidar.name + ": the ground is not known here";
   if (ground.sweeps == 0) return lidar.name + ": the ground is not judged: too little of it is seen";
   char text[160];
   std::snprintf(text, sizeof text,
