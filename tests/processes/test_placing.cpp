@@ -63,7 +63,8 @@ void write_odometry(const std::string& path, const Drive& drive) {
     if (t > drive.last_s + 1e-6) return;
     if (t > drive.gap_from_s && t < drive.gap_to_s) continue;
     char line[128];
-    std::snprintf(line, sizeof line, "%.6f %.6f 0 0 0 0 0 1\n", t, 2 * i * drive.period_s + (t >= drive.jump_at_s ? 5 : 0));
+    std::snprintf(line, sizeof line, "%.6f %.6f 0 0 0 0 0 1\n", t,
+                  2 * i * drive.period_s + (t >= drive.jump_at_s ? 5 : 0));
     file << line;
   }
 }
