@@ -10,7 +10,7 @@ Cli::Cli(const std::string& name, const std::string& description) : app_(descrip
   app_.add_option("--set", sets_, "override a key of it, VALUE being YAML; repeatable")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
-  app_.add_flag("--check", check_only_, "load the configuration, say OK or what is wrong with it, and end");
+  app_.add_flag("--check", check_only_, "look whether it would start, say OK or what is wrong, and end");
   app_.add_flag("--print-config", print_only_, "print the configuration with all defaults, and end");
 }
 
@@ -27,6 +27,9 @@ tl::expected<VehicleConfig, ExitCode> Cli::parse(int argc, const char* const* ar
     return tl::make_unexpected(ExitCode::configuration);
   }
   if (print_only_) print_config(*config, std::cout);
+  if (check_only_ && inspect_) {
+    if (const ExitCode code = inspect_(*config); code != ExitCode::ok) return tl::make_unexpected(code);
+  }
   if (check_only_) std::cout << "OK\n";
   if (print_only_ || check_only_) return tl::make_unexpected(ExitCode::ok);
   return *config;

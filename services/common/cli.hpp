@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -25,6 +26,7 @@ namespace gvom::services {
 class Cli {
  public:
   using Check = std::function<tl::expected<void, ConfigError>(const VehicleConfig&)>;
+  using Inspect = std::function<ExitCode(const VehicleConfig&)>;
 
   Cli(const std::string& name, const std::string& description);
 
@@ -33,6 +35,10 @@ class Cli {
 
   /// A check of the configuration that only this executable can make; part of --check. Exit code 78.
   void also_check(Check check) { checks_.push_back(std::move(check)); }
+
+  /// What --check looks at beyond the configuration, and only --check. It prints what it finds; a code other
+  /// than ok ends the process, without the OK.
+  void on_check(Inspect inspect) { inspect_ = std::move(inspect); }
 
   /// The loaded configuration, or the code to exit with because everything is said: help, version,
   /// --check or --print-config was asked for (ok), the command line (usage) or the configuration
@@ -44,6 +50,7 @@ class Cli {
 
   CLI::App app_;
   std::vector<Check> checks_;
+  Inspect inspect_;
   std::string config_path_;
   std::vector<std::string> sets_;
   bool check_only_ = false;

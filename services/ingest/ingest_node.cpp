@@ -57,7 +57,7 @@ IngestNode::IngestNode(const services::VehicleConfig& config, const services::Li
       odometry_(config.odometry,
                 reader_.is_live() ? OdometryIntake::Sweeps::live : OdometryIntake::Sweeps::recorded),
       ground_(lidar.geometry, config.mapper.vehicle),
-      sensor_watch_(reader_.is_live() ? reader_.most_packets_per_s() : 0, ipc::monotonic_ns()) {
+      sensor_watch_(reader_.is_live() ? reader_.most_packets_per_s() : 0, lidar_, ipc::monotonic_ns()) {
   health_.set_backend(equipment.backend.name, equipment.backend.details);
   lifecycle_.on_stop([this] { bus_.waiter.wake(); });
 }
@@ -232,6 +232,8 @@ std::uint64_t IngestNode::judge(std::int64_t now_ns) {
   if (reader_.is_live()) {
     sensor_watch_.update(reader_.counters(), reader_.overruns().slow, now_ns);
     sensor_watch_.describe(words);
+  } else if (const SourceCounters& c = reader_.counters(); c.sweeps == 0 && c.dropped_sweeps > 0) {
+    tell_dropped(100 * c.best_dropped_fraction, lidar_, words);
   }
   ground_.describe(words);
   const std::uint64_t faults = sensor_watch_.faults() | std::uint64_t{odometry_.faults(now_ns)} << 32;

@@ -70,4 +70,33 @@ std::vector<std::string> explain(const SweepLosses& losses, const OdometryIntake
   return lines;
 }
 
+void tell_dropped(double percent, const services::LidarConfig& lidar, services::Words& words) {
+  words.add("no map: its sweeps have %.0f %% of their columns, lidars.%s.min_sweep_fraction is %g", percent,
+            lidar.name.c_str(), lidar.min_sweep_fraction);
+}
+
+std::vector<std::string> explain(const SourceCounters& counters, const services::LidarConfig& lidar) {
+  std::vector<std::string> lines;
+  const std::uint64_t sweeps = counters.sweeps + counters.dropped_sweeps;
+  if (sweeps == 0) {
+    lines.push_back(
+        fmt::format("no sweep came: {} packets, of which {} are not of such a sensor, {} of another "
+                    "such, {} snapped",
+                    counters.packets, counters.foreign_packets, counters.second_sensor_packets,
+                    counters.truncated_packets));
+  }
+  if (counters.dropped_sweeps > 0) {
+    lines.push_back(
+        fmt::format("{} of {} sweeps dropped: they have {:.0f} % of their columns at most, "
+                    "lidars.{}.min_sweep_fraction is {}",
+                    counters.dropped_sweeps, sweeps, 100 * counters.best_dropped_fraction, lidar.name,
+                    lidar.min_sweep_fraction));
+  }
+  if (counters.overflow_returns > 0) {
+    lines.push_back(fmt::format("{} returns left out: lidars.{}.max_returns is {}", counters.overflow_returns,
+                                lidar.name, lidar.max_returns));
+  }
+  return lines;
+}
+
 }  // namespace gvom::ingest

@@ -1,6 +1,7 @@
 // gvom-ingest: sweeps of one lidar to buffer maps.
 #include <spdlog/spdlog.h>
 
+#include <iostream>
 #include <utility>
 
 #include "core/open_backend.hpp"
@@ -9,20 +10,47 @@
 #include "services/common/lifecycle.hpp"
 #include "services/common/log.hpp"
 #include "services/ingest/ingest_node.hpp"
+#include "services/ingest/source_check.hpp"
 #include "services/ingest/source_options.hpp"
+#include "services/ingest/udp_ports.hpp"
 
 namespace {
 
 using namespace gvom;
 using services::ExitCode;
 
+ExitCode code_of(const ingest::SourceError& error) {
+  return error.kind == ingest::SourceError::Kind::unavailable ? ExitCode::unavailable : ExitCode::bad_data;
+}
+
+/// Says what is at the source. A port that this lidar's own process has is well.
+ExitCode check(const services::LidarConfig& lidar) {
+  const auto checked = ingest::check_source(lidar);
+  if (checked) {
+    for (const std::string& warning : checked->warnings) std::cerr << "warning: " << warning << "\n";
+    std::cout << "lidar " << lidar.name << ": " << lidar.source << ": " << checked->found << "\n";
+    return ExitCode::ok;
+  }
+  const bool taken = checked.error().kind == ingest::SourceError::Kind::unavailable;
+  const auto port = taken ? ingest::live_port(lidar.source) : std::nullopt;
+  const auto owner = port ? ingest::owner_of_port(*port) : std::nullopt;
+  if (owner && ingest::is_ingest_of(*owner, lidar.name)) {
+    std::cout << "lidar " << lidar.name << ": its process runs (pid " << owner->pid << ") and has port "
+              << *port << "\n";
+    return ExitCode::ok;
+  }
+  std::cerr << "lidar " << lidar.name << ": " << checked.error().what;
+  if (owner) std::cerr << ": process " << owner->pid << " (" << owner->command << ") has it";
+  std::cerr << "\n";
+  return code_of(checked.error());
+}
+
 ExitCode run(const services::VehicleConfig& config, const services::LidarConfig& lidar,
              services::Lifecycle& lifecycle) {
   auto source = ingest::open_source(lidar.source, ingest::source_options(lidar));
   if (!source) {
     spdlog::error("lidar {}: {}", lidar.name, source.error().what);
-    return source.error().kind == ingest::SourceError::Kind::unavailable ? ExitCode::unavailable
-                                                                         : ExitCode::bad_data;
+    return code_of(source.error());
   }
   const auto max_returns = static_cast<std::size_t>(lidar.max_returns);
   if (const auto lack = ingest::lack_of_room(lidar.name, max_returns, **source); !lack.empty()) {
@@ -63,6 +91,9 @@ int main(int argc, char** argv) {
     if (!(*lidar)->source.empty()) return {};
     return tl::unexpected(services::ConfigError{config.path, "lidars." + name + ".source",
                                                 "is empty; give one in the file or by --set"});
+  });
+  cli.on_check([&](const services::VehicleConfig& config) {
+    return check(*services::find_lidar(config, name).value());
   });
   const auto config = cli.parse(argc, argv);
   if (!config) return services::to_int(config.error());

@@ -2,6 +2,8 @@
 
 #include <cstdio>
 
+#include "services/ingest/loss_words.hpp"
+
 namespace gvom::ingest {
 
 namespace {
@@ -31,8 +33,8 @@ std::uint64_t of_sensor(const SourceCounters& counters) {
 
 }  // namespace
 
-SensorWatch::SensorWatch(double most_packets_per_s, std::int64_t now_ns)
-    : most_packets_per_s_(most_packets_per_s), heard_ns_(now_ns), now_ns_(now_ns) {
+SensorWatch::SensorWatch(double most_packets_per_s, const services::LidarConfig& lidar, std::int64_t now_ns)
+    : most_packets_per_s_(most_packets_per_s), lidar_(lidar), heard_ns_(now_ns), now_ns_(now_ns) {
   looks_[looked_++].at_ns = now_ns;
 }
 
@@ -93,6 +95,11 @@ void SensorWatch::judge_foreign(const Look& before, const Look& now, double per_
 
 void SensorWatch::judge_shares(const SourceCounters& before, const SourceCounters& now) {
   const auto more = [&](std::uint64_t SourceCounters::*counter) { return now.*counter - before.*counter; };
+  const std::uint64_t dropped = more(&SourceCounters::dropped_sweeps);
+  if (dropped > 1 && more(&SourceCounters::sweeps) == 0) {
+    see(SensorFault::dropped,
+        100 * (now.dropped_fractions - before.dropped_fractions) / static_cast<double>(dropped));
+  }
   const std::uint64_t packets = more(&SourceCounters::packets);
   const std::uint64_t columns = more(&SourceCounters::columns);
   const auto judge_share = [this](SensorFault fault, double share, double most) {
@@ -146,6 +153,8 @@ void SensorWatch::tell(SensorFault fault, double value, services::Words& words) 
       return words.add("%.0f %% of packets out of order", value);
     case SensorFault::invalid:
       return words.add("%.0f %% of columns invalid", value);
+    case SensorFault::dropped:
+      return tell_dropped(value, lidar_, words);
     case SensorFault::overrun:
       return words.add("%.0f sweeps/s dropped, waiting to be mapped", value);
     case SensorFault::count:

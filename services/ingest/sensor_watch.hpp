@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "services/common/vehicle_config.hpp"
 #include "services/common/words.hpp"
 #include "services/ingest/sightings.hpp"
 #include "services/ingest/source.hpp"
@@ -14,6 +15,7 @@ namespace gvom::ingest {
 /// In the order in which they are told.
 enum class SensorFault {
   silence,        ///< No packet for half a second.
+  dropped,        ///< Every sweep has too few of its columns.
   flood,          ///< More packets than one such sensor sends.
   slow,           ///< The only sender has not a sensor's rate.
   second_sensor,  ///< Packets of this sensor's kind, of another sensor.
@@ -32,8 +34,8 @@ enum class SensorFault {
 /// Judges rates over the last half second.
 class SensorWatch {
  public:
-  /// `most_packets_per_s`: see Source; 0: no packets, and nothing is ever wrong.
-  SensorWatch(double most_packets_per_s, std::int64_t now_ns);
+  /// `most_packets_per_s`: see Source; 0: no packets, and nothing is ever wrong. `lidar` must outlive this.
+  SensorWatch(double most_packets_per_s, const services::LidarConfig& lidar, std::int64_t now_ns);
 
   /// The counters as they stand at `now_ns` (CLOCK_MONOTONIC). Call it as often as you like.
   void update(const SourceCounters& counters, std::uint64_t overruns, std::int64_t now_ns);
@@ -58,6 +60,7 @@ class SensorWatch {
   void tell(SensorFault fault, double value, services::Words& words) const;
 
   double most_packets_per_s_;
+  const services::LidarConfig& lidar_;
   std::array<Look, kLooks> looks_{};
   std::size_t looked_ = 0;
   std::int64_t heard_ns_;  // when packets last came

@@ -39,8 +39,10 @@ struct SourceCounters {
   std::uint64_t overflow_returns = 0;      ///< Beyond `max_returns`.
 
   // Nothing that was dropped: what tells a person more about the above.
-  std::uint64_t columns = 0;               ///< Of closed sweeps, those that came (Velodyne: firing blocks).
-  std::uint64_t missing_columns = 0;       ///< ... and those that did not.
+  std::uint64_t columns = 0;          ///< Of closed sweeps, those that came (Velodyne: firing blocks).
+  std::uint64_t missing_columns = 0;  ///< ... and those that did not.
+  double dropped_fractions = 0;      ///< What the dropped sweeps had of their columns, 0 .. 1 each, added up.
+  double best_dropped_fraction = 0;  ///< The most of these.
   std::uint64_t foreign_size_changes = 0;  ///< Foreign packets of another size than the foreign one before.
   std::uint64_t foreign_size = 0;          ///< Of the newest foreign packet, bytes.
   std::uint64_t side_packets = 0;          ///< Of the foreign ones, the sensor's own: IMU, position, zones.

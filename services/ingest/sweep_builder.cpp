@@ -36,7 +36,10 @@ void SweepBuilder::append(const Return* returns, std::size_t count) {
 
 bool SweepBuilder::close(double fraction, bool complete, Sweep& out) {
   if (open_.times_ns.empty() || fraction < min_fraction_) {
+    const double had = open_.times_ns.empty() ? 0 : std::clamp(fraction, 0.0, 1.0);
     ++counters_.dropped_sweeps;
+    counters_.dropped_fractions += had;
+    counters_.best_dropped_fraction = std::max(counters_.best_dropped_fraction, had);
     discard();
     return false;
   }

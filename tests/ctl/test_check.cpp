@@ -67,7 +67,8 @@ TEST_CASE("check: a vehicle that works has no error, in words and in JSON") {
   CHECK_THAT(ended.output,
              Contains("ok       configuration") && Contains("vehicle 'two_lidars' with 2 lidars"));
   CHECK_THAT(ended.output, Contains("ok       pools"));
-  CHECK_THAT(ended.output, Contains("ok       lidar front       ouster:front.pcap?meta=front.json opens"));
+  CHECK_THAT(ended.output,
+             Contains("ok       lidar front       ouster:front.pcap?meta=front.json: a sweep of "));
   CHECK_THAT(ended.output, Contains("ok       odometry          tum:odometry.tum:"));
   CHECK_THAT(ended.output, Contains("ok       fusion.backend    auto gives cpu"));
   const auto json = nlohmann::json::parse(
@@ -96,6 +97,28 @@ TEST_CASE("check: what does not work here is an error, and the rest is looked at
   fails({"fusion.backend=cuda"}, "error    fusion.backend    cuda cannot start:");
 }
 
+TEST_CASE("gvom-ingest --check opens the source and decodes a sweep of a recording") {
+  const Checked checked;
+  const auto check = [&](const std::string& set) {
+    std::vector<std::string> arguments{"--config", checked.vehicle.file, "--lidar", "front", "--check"};
+    for (const std::string& given : checked.vehicle.sets) arguments.insert(arguments.end(), {"--set", given});
+    arguments.insert(arguments.end(), {"--set", set});
+    return run("gvom-ingest", arguments, checked.folder.path());
+  };
+  Ended ended = check("lidars.front.min_sweep_fraction=0.9");
+  INFO(ended.output);
+  CHECK(ended.code == 0);
+  CHECK_THAT(ended.output,
+             Contains("lidar front: ouster:front.pcap?meta=front.json: a sweep of ") && Contains("OK"));
+  ended = check("lidars.front.source=ouster:gone.pcap?meta=front.json");
+  CHECK(ended.code == 65);
+  CHECK_THAT(ended.output, Contains("lidar front: gone.pcap") && !Contains("OK"));
+  const TakenPort taken;
+  ended = check("lidars.front.source=ouster-udp:" + taken.port() + "?meta=front.json");
+  CHECK(ended.code == 69);
+  CHECK_THAT(ended.output, Contains("process " + std::to_string(::getpid())));
+}
+
 TEST_CASE("check: a port that is taken is an error that names the process, a free one is well") {
   const Checked checked;
   TakenPort taken;
@@ -108,7 +131,7 @@ TEST_CASE("check: a port that is taken is an error that names the process, a fre
   taken.give();
   ended = checked.check({"lidars.front.source=" + uri});
   CHECK(ended.code == 0);
-  CHECK_THAT(ended.output, Contains(uri + " opens") && Contains("net.core.rmem_max"));
+  CHECK_THAT(ended.output, Contains(uri + ": its port can be bound") && Contains("net.core.rmem_max"));
   ended = checked.check({"lidars.front.source=" + uri, "lidars.rear.source=" + uri});
   CHECK(ended.code == 1);
   CHECK_THAT(ended.output, Contains("another lidar of this vehicle has the same"));

@@ -5,8 +5,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "services/ingest/udp_ports.hpp"
 #include "tools/ctl/check.hpp"
-#include "tools/ctl/udp_ports.hpp"
 #include "tools/ctl/units.hpp"
 #include "tools/ctl/vehicle.hpp"
 
@@ -36,10 +36,10 @@ TEST_CASE("sockets on a port are found by their local address alone") {
       "0\n"
       "  187: 0100007F:1D4F 0100007F:1D4E 01 00000000:00000000 00:00000000 00000000   998        0 4712 2 0 "
       "0\n";
-  CHECK(ctl::sockets_on(table, 7502) == std::vector<std::uint64_t>{4711});
-  CHECK(ctl::sockets_on(table, 7503) == std::vector<std::uint64_t>{4712});
-  CHECK(ctl::sockets_on(table, 1).empty());
-  CHECK(ctl::sockets_on("", 7502).empty());
+  CHECK(ingest::sockets_on(table, 7502) == std::vector<std::uint64_t>{4711});
+  CHECK(ingest::sockets_on(table, 7503) == std::vector<std::uint64_t>{4712});
+  CHECK(ingest::sockets_on(table, 1).empty());
+  CHECK(ingest::sockets_on("", 7502).empty());
 }
 
 TEST_CASE("the owner of a port of our own is this process") {
@@ -49,12 +49,12 @@ TEST_CASE("the owner of a port of our own is this process") {
   socklen_t size = sizeof address;
   REQUIRE(::bind(fd, reinterpret_cast<sockaddr*>(&address), size) == 0);
   REQUIRE(::getsockname(fd, reinterpret_cast<sockaddr*>(&address), &size) == 0);
-  const auto owner = ctl::owner_of_port(ntohs(address.sin_port));
+  const auto owner = ingest::owner_of_port(ntohs(address.sin_port));
   ::close(fd);
   REQUIRE(owner);
   CHECK(owner->pid == ::getpid());
   CHECK(owner->command.find("test_ctl") != std::string::npos);
-  CHECK(!ctl::owner_of_port(ntohs(address.sin_port)));
+  CHECK(!ingest::owner_of_port(ntohs(address.sin_port)));
 }
 
 TEST_CASE("findings: an error decides, a warning does not") {

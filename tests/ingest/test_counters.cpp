@@ -14,6 +14,8 @@ TEST_CASE("every counter is in Health, but those that say more about others") {
   CHECK(told.size() == std::size(kIngestCounters));
   for (const void* more :
        {static_cast<const void*>(&counts.fragments), static_cast<const void*>(&counts.columns),
+        static_cast<const void*>(&counts.dropped_fractions),
+        static_cast<const void*>(&counts.best_dropped_fraction),
         static_cast<const void*>(&counts.foreign_size_changes),
         static_cast<const void*>(&counts.foreign_size), static_cast<const void*>(&counts.side_packets)})
     told.insert(more);

@@ -13,6 +13,14 @@ namespace {
 
 constexpr std::int64_t kTenth_ns = 100'000'000;
 
+services::LidarConfig front() {
+  services::LidarConfig lidar;
+  lidar.name = "front";
+  return lidar;
+}
+
+const services::LidarConfig kLidar = front();
+
 /// A sensor of 640 packets and 10 sweeps of 1024 columns a second; 1280 packets at most.
 class Sensor {
  public:
@@ -42,7 +50,7 @@ class Sensor {
   SourceCounters counters_;
   std::uint64_t overruns_ = 0;
   std::int64_t now_ns_ = 1'000'000'000;
-  SensorWatch watch_{1280, now_ns_};
+  SensorWatch watch_{1280, kLidar, now_ns_};
 };
 
 /// Told within half a second, until a second after the last half-second with it.
@@ -79,7 +87,7 @@ TEST_CASE("silence is told after half a second, for how long, and no longer than
 }
 
 TEST_CASE("a sensor that never sent is silent") {
-  SensorWatch watch(1280, 1'000'000'000);
+  SensorWatch watch(1280, kLidar, 1'000'000'000);
   watch.update({}, 0, 3'000'000'000);
   services::Words words;
   watch.describe(words);
@@ -187,7 +195,7 @@ TEST_CASE("a stray packet, a few lost columns and what comes once are no faults"
 }
 
 TEST_CASE("of a source without packets nothing is ever said") {
-  SensorWatch watch(0, 0);
+  SensorWatch watch(0, kLidar, 0);
   for (std::int64_t now_ns = 0; now_ns < 5'000'000'000; now_ns += kTenth_ns) watch.update({}, 0, now_ns);
   CHECK(watch.faults() == 0);
 }
@@ -200,4 +208,19 @@ TEST_CASE("a sensor's own packets beside the lidar's are no fault") {
     counters.side_packets += 10;
   });
   CHECK(sensor.says().empty());
+}
+
+TEST_CASE("sweeps that are all dropped for want of columns are told, with the key that decides") {
+  Sensor sensor;
+  sensor.live(20, [](SourceCounters& counters) {
+    ++counters.dropped_sweeps;
+    counters.dropped_fractions += 1.0 / 3;
+  });
+  CHECK(sensor.says() ==
+        "no map: its sweeps have 33 % of their columns, lidars.front.min_sweep_fraction is 0.5");
+  Sensor other;
+  other.live(20, [](SourceCounters& counters) {  // every second one
+    ++(counters.dropped_sweeps == counters.sweeps ? counters.dropped_sweeps : counters.sweeps);
+  });
+  CHECK(other.says().empty());
 }

@@ -7,7 +7,7 @@ check_install() {
   [[ $(systemctl is-enabled gvom.target || true) == disabled ]] || fail "the package enabled something"
   id gvom > /dev/null || fail "no user gvom"
   [[ $(stat --format %U:%G /var/lib/gvom) == gvom:gvom ]] || fail "/var/lib/gvom"
-  gvom-ingest --config "$vehicle" --lidar front --check || fail "$vehicle"
+  gvom-fusion --config "$vehicle" --check || fail "$vehicle"
 }
 
 check_running() {

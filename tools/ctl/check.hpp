@@ -22,8 +22,8 @@ using Findings = std::vector<Finding>;
 /// The pools by their plan, room in /dev/shm, and whose files are in the way there and in /tmp.
 Findings check_memory(const services::VehicleConfig& config);
 
-/// Each lidar's source: a recording is read up to its first lidar packet, a port is bound for a moment. A
-/// port that the lidar's own gvom-ingest holds is well.
+/// Each lidar's source, as gvom-ingest --check: sweeps of a recording are decoded, a port is bound for a
+/// moment. A port that the lidar's own gvom-ingest holds is well.
 Findings check_lidars(const services::VehicleConfig& config);
 
 /// Odometry, the back ends that are asked for, and limits of this shell (units have their own).

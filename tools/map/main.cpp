@@ -88,6 +88,17 @@ void say_grounds(const gvom::tools::OfflineMapper& mapper) {
   }
 }
 
+/// Why there are fewer maps than sweeps.
+void say_losses(const gvom::tools::OfflineMapper& mapper, const gvom::services::VehicleConfig& config) {
+  for (const auto& lidar : mapper.lidars()) {
+    const auto& counters = lidar.source->counters();
+    auto lines = gvom::ingest::explain(counters, *gvom::services::find_lidar(config, lidar.name).value());
+    for (std::string& line : gvom::ingest::explain(lidar.losses, mapper.odometry()))
+      lines.push_back(std::move(line));
+    for (const std::string& line : lines) spdlog::warn("lidar {}: {}", lidar.name, line);
+  }
+}
+
 int run(const gvom::services::VehicleConfig& config, const Options& options) {
   auto mapper = gvom::tools::OfflineMapper::open(config, options.odometry, !options.no_deskew);
   if (!mapper) {
@@ -117,9 +128,7 @@ int run(const gvom::services::VehicleConfig& config, const Options& options) {
       return to_int(ExitCode::unavailable);
     }
   }
-  for (const auto& lidar : mapper->lidars())
-    for (const std::string& line : gvom::ingest::explain(lidar.losses, mapper->odometry()))
-      spdlog::warn("lidar {}: {}", lidar.name, line);
+  say_losses(*mapper, config);
   say_grounds(*mapper);
   spdlog::info("{} maps in {}; {} sweeps without odometry around them, {} maps refused", maps, options.out,
                mapper->sweeps_without_odometry(), mapper->maps_refused());

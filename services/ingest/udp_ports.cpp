@@ -1,4 +1,4 @@
-#include "tools/ctl/udp_ports.hpp"
+#include "services/ingest/udp_ports.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -6,7 +6,9 @@
 #include <iterator>
 #include <sstream>
 
-namespace gvom::ctl {
+#include "services/ingest/uri.hpp"
+
+namespace gvom::ingest {
 
 namespace {
 
@@ -46,7 +48,7 @@ std::vector<std::uint64_t> sockets_on(const std::string& table, std::uint16_t po
   return inodes;
 }
 
-std::optional<PortOwner> owner_of_port(std::uint16_t port) {
+std::optional<PortHolder> owner_of_port(std::uint16_t port) {
   std::vector<std::string> links;
   for (const char* table : {"/proc/net/udp", "/proc/net/udp6"})
     for (const std::uint64_t inode : sockets_on(read_text(table), port))
@@ -61,9 +63,23 @@ std::optional<PortOwner> owner_of_port(std::uint16_t port) {
     std::string command = read_text(process->path() / "cmdline");
     std::replace(command.begin(), command.end(), '\0', ' ');
     command.erase(command.find_last_not_of(' ') + 1);
-    return PortOwner{std::stoi(name), command};
+    return PortHolder{std::stoi(name), command};
   }
   return std::nullopt;
 }
 
-}  // namespace gvom::ctl
+bool is_ingest_of(const PortHolder& owner, const std::string& lidar) {
+  const std::string words = owner.command + " ";
+  return words.find("gvom-ingest") != std::string::npos &&
+         (words.find("--lidar " + lidar + " ") != std::string::npos ||
+          words.find("--lidar=" + lidar + " ") != std::string::npos);
+}
+
+std::optional<std::uint16_t> live_port(const std::string& source) {
+  const auto uri = parse_source_uri(source);
+  if (!uri || (uri->scheme != "ouster-udp" && uri->scheme != "velodyne-udp")) return std::nullopt;
+  const auto port = parse_port(uri->path);
+  return port ? std::optional<std::uint16_t>(*port) : std::nullopt;
+}
+
+}  // namespace gvom::ingest
