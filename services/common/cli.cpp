@@ -2,6 +2,8 @@
 
 #include <iostream>
 
+#include "services/common/lifecycle.hpp"
+
 namespace gvom::services {
 
 Cli::Cli(const std::string& name, const std::string& description) : app_(description, name) {
@@ -24,6 +26,7 @@ tl::expected<VehicleConfig, ExitCode> Cli::parse(int argc, const char* const* ar
   const auto config = load();
   if (!config) {
     std::cerr << config.error().text() << "\n";
+    notify_status(config.error().text().c_str());
     return tl::make_unexpected(ExitCode::configuration);
   }
   if (print_only_) print_config(*config, std::cout);

@@ -84,8 +84,10 @@ void notify_stopping() {
 }
 
 void notify_status(const char* text) {
-  char message[256];
+  char message[512];
   std::snprintf(message, sizeof(message), "STATUS=%s", text);
+  for (char& c : message)
+    if (c == '\n') c = ' ';  // another line would be another variable
   sd_notify(0, message);
 }
 

@@ -5,9 +5,12 @@
 #include <memory>
 
 #include <spdlog/pattern_formatter.h>
+#include <spdlog/sinks/base_sink.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#include "services/common/lifecycle.hpp"
 
 namespace gvom::services {
 
@@ -50,11 +53,23 @@ class JournalPriority : public spdlog::custom_flag_formatter {
   }
 };
 
+/// The last error stands as systemd's status, also when the process has ended: `systemctl status` and gvomctl
+/// say why. A process that goes on tells its rate there soon again.
+class StatusSink : public spdlog::sinks::base_sink<std::mutex> {
+ protected:
+  void sink_it_(const spdlog::details::log_msg& message) override {
+    notify_status(std::string(message.payload.data(), message.payload.size()).c_str());
+  }
+  void flush_() override {}
+};
+
 }  // namespace
 
 void init_logging(const std::string& process_name) {
-  spdlog::set_default_logger(
-      std::make_shared<spdlog::logger>(process_name, std::make_shared<spdlog::sinks::stderr_sink_mt>()));
+  auto status = std::make_shared<StatusSink>();
+  status->set_level(spdlog::level::err);
+  const spdlog::sinks_init_list sinks = {std::make_shared<spdlog::sinks::stderr_sink_mt>(), status};
+  spdlog::set_default_logger(std::make_shared<spdlog::logger>(process_name, sinks));
   if (!stderr_is_journal()) {
     spdlog::set_pattern("%H:%M:%S.%e %n %l: %v");
     return;

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "services/common/bus/pool_spec.hpp"
-#include "services/common/config_file.hpp"
+#include "services/common/config_concerns.hpp"
 
 namespace gvom::fusion {
 
@@ -49,7 +49,7 @@ FusionNode::FusionNode(const services::VehicleConfig& config, ipc::Runtime& runt
       bus_(bus),
       lifecycle_(lifecycle),
       broker_(runtime, lifecycle),
-      health_(runtime.name(), services::config_hash(config)),
+      health_(runtime.name(), services::config_hash(config, runtime.name())),
       counters_(health_),
       fuser_(std::move(backend.backend)),
       unknown_(config.lidars) {

@@ -48,6 +48,7 @@ ExitCode run(const services::VehicleConfig& config, services::Lifecycle& lifecyc
 int main(int argc, char** argv) {
   services::Lifecycle lifecycle(services::kLeaveWithin);
   services::Cli cli("gvom-fusion", "Fuses the buffer maps of all lidars and publishes layers.");
+  cli.app().footer("Example:\n  gvom-fusion --config vehicle.yaml --set fusion.rate_hz=10");
   const auto config = cli.parse(argc, argv);
   if (!config) return services::to_int(config.error());
   services::init_logging("gvom-fusion");

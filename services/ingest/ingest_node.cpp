@@ -6,6 +6,7 @@
 
 #include "ipc/text.hpp"
 #include "services/common/bus/pool_spec.hpp"
+#include "services/common/config_concerns.hpp"
 #include "services/common/config_file.hpp"
 #include "services/ingest/loss_words.hpp"
 
@@ -47,7 +48,7 @@ IngestNode::IngestNode(const services::VehicleConfig& config, const services::Li
       bus_(bus),
       lifecycle_(lifecycle),
       broker_(runtime, lifecycle),
-      health_(runtime.name(), services::config_hash(config)),
+      health_(runtime.name(), services::config_hash(config, runtime.name())),
       counters_(health_),
       mapper_(config.mapper.map, std::move(equipment.backend.backend)),
       credit_(lidar.name),

@@ -95,6 +95,11 @@ int main(int argc, char** argv) {
   cli.on_check([&](const services::VehicleConfig& config) {
     return check(*services::find_lidar(config, name).value());
   });
+  cli.app().footer(
+      "Examples:\n"
+      "  gvom-ingest --config vehicle.yaml --lidar front --check\n"
+      "  gvom-ingest --config vehicle.yaml --lidar front --set "
+      "lidars.front.source=velodyne-udp:2368?model=VLP-16");
   const auto config = cli.parse(argc, argv);
   if (!config) return services::to_int(config.error());
   services::init_logging("gvom-ingest-" + name);

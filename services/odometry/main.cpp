@@ -3,6 +3,7 @@
 
 #include "services/common/bus/join.hpp"
 #include "services/common/cli.hpp"
+#include "services/common/config_concerns.hpp"
 #include "services/common/log.hpp"
 #include "services/common/odometry_file.hpp"
 #include "services/odometry/rate.hpp"
@@ -45,7 +46,7 @@ odometry::ReplayOptions replay_options(const Options& options, const services::V
   const odometry::Rate rate = odometry::parse_rate(options.rate).value();  // checked with the command line
   const std::chrono::duration<double> wait(options.wait_readers_s);
   return {rate.factor, rate.lossless, options.loop,
-          std::chrono::duration_cast<std::chrono::milliseconds>(wait), services::config_hash(config)};
+          std::chrono::duration_cast<std::chrono::milliseconds>(wait), services::config_hash(config, kName)};
 }
 
 ExitCode replay(const std::vector<StampedPose>& poses, const std::vector<std::string>& lidars,
@@ -70,6 +71,7 @@ int main(int argc, char** argv) {
   services::Cli cli(kName, "Publishes the odometry of a recording: the clock of a replay.");
   Options options;
   add_options(cli.app(), options);
+  cli.app().footer("Example:\n  gvom-odometry --config vehicle.yaml --source tum:odometry.tum --rate max");
   const auto config = cli.parse(argc, argv);
   if (!config) return to_int(config.error());
 

@@ -59,6 +59,7 @@ int main(int argc, char** argv) {
   services::Lifecycle lifecycle(kLeaveWithin);
   services::Cli cli("gvom-roudi", "The shared-memory broker: start it first, stop it last.");
   cli.also_check(check_pools);
+  cli.app().footer("Example:\n  gvom-roudi --config vehicle.yaml --print-config   all keys and their values");
   const auto config = cli.parse(argc, argv);
   if (!config) return services::to_int(config.error());
   services::init_logging("gvom-roudi");

@@ -4,6 +4,7 @@
 
 #include "tests/ctl/vehicle_at.hpp"
 #include "tools/ctl/render.hpp"
+#include "tools/ctl/unit_state.hpp"
 
 using namespace gvom;
 using namespace gvom::test;
@@ -112,9 +113,10 @@ TEST_CASE("who runs another configuration than the file's, or another gvom, is a
   ipc::set_text(front.version, "0.2.9");
   vehicle.observed.add(front);
   const ctl::Snapshot snapshot = vehicle.snapshot();
-  CHECK(snapshot.problems ==
-        std::vector<std::string>{"gvom-fusion runs with another configuration than the file's: restart it",
-                                 "gvom-ingest-front is of gvom 0.2.9, this is 0.3.0: restart it"});
+  CHECK(
+      snapshot.problems ==
+      std::vector<std::string>{"gvom-fusion runs with another configuration than the file's: gvomctl reload",
+                               "gvom-ingest-front is of gvom 0.2.9, this is 0.3.0: restart it"});
   CHECK_THAT(to_table(snapshot), Contains("    runs gvom 0.3.0, configuration 0123456789abcdf0\n") &&
                                      Contains("\ngvom 0.3.0, configuration 0123456789abcdef\n"));
   const auto json = nlohmann::json::parse(to_json(snapshot));
@@ -329,4 +331,60 @@ TEST_CASE("two lidars that see the ground at different heights or angles are a p
   CHECK(problems(-0.12f, 0.06f) ==
         std::vector<std::string>{
             "front and rear see the ground 0.0 m and 5 degrees apart: is a T_base_sensor wrong?"});
+}
+TEST_CASE("a file that does not load is the first problem, and what runs is looked at all the same") {
+  VehicleAt vehicle;
+  vehicle.expected = {"", {"gvom-fusion"}, kVersion};
+  vehicle.expected.config_error = "v.yaml:3: map.size: no such key";
+  const ctl::Snapshot snapshot = vehicle.snapshot();
+  CHECK(snapshot.problems ==
+        std::vector<std::string>{"the vehicle's file does not load, who is started anew will "
+                                 "not run: v.yaml:3: map.size: no such key"});
+  CHECK_THAT(to_table(snapshot), Catch::StartsWith("the vehicle's file does not load: 1 problem\n"));
+  CHECK(process(snapshot, "gvom-ingest-rear").state == ctl::ProcessState::ok);
+  CHECK(nlohmann::json::parse(to_json(snapshot))["config_error"] == vehicle.expected.config_error);
+}
+
+TEST_CASE("each process is held against what of the file concerns it") {
+  VehicleAt vehicle;
+  for (const std::string& name : vehicle.expected.processes)
+    vehicle.expected.process_hashes[name] = kConfigHash;
+  vehicle.expected.config_hash = kConfigHash + 1;  // of the whole file: it has keys that concern nobody
+  CHECK(vehicle.snapshot().problems.empty());
+  vehicle.expected.process_hashes["gvom-ingest-rear"] = kConfigHash + 1;
+  CHECK(vehicle.snapshot().problems ==
+        std::vector<std::string>{"gvom-ingest-rear runs with another configuration "
+                                 "than the file's: gvomctl reload"});
+}
+
+TEST_CASE("of a process that is not there systemd says why") {
+  VehicleAt vehicle;
+  vehicle.expected.processes.emplace_back("gvom-ingest-left");
+  vehicle.stopped = "gvom-ingest-left";
+  vehicle.why_stopped =
+      "gvom-ingest@left.service is not enabled: systemctl enable --now gvom-ingest@left.service";
+  CHECK(process(vehicle.snapshot(), "gvom-ingest-left").reason ==
+        "nothing was heard of it; " + vehicle.why_stopped);
+}
+
+TEST_CASE("how a unit is in one line, and what to do") {
+  const auto words = [](ctl::UnitState state) {
+    state.unit = "u.service";
+    return ctl::why_not_running(state);
+  };
+  CHECK(words({"", "not-found", "", "inactive", "dead", "success", 0, ""}) == "there is no unit u.service");
+  CHECK(words({"", "loaded", "disabled", "inactive", "dead", "success", 0, ""}) ==
+        "u.service is not enabled: systemctl enable --now u.service");
+  CHECK(words({"", "loaded", "enabled", "inactive", "dead", "success", 0, ""}) ==
+        "u.service is stopped: systemctl start u.service");
+  CHECK(words({"", "loaded", "enabled", "failed", "failed", "exit-code", 78, "v.yaml:3: no"}) ==
+        "u.service failed with exit code 78: v.yaml:3: no; journalctl --unit u.service");
+  CHECK(words({"", "loaded", "enabled", "activating", "auto-restart", "exit-code", 69, "no room"}) ==
+        "u.service is started again and again, it ended with exit code 69: no room; journalctl --unit "
+        "u.service");
+  CHECK(words({"", "loaded", "enabled", "activating", "start", "success", 0, "waiting"}) ==
+        "u.service is starting: waiting");
+  CHECK(words({"", "loaded", "enabled", "activating", "auto-restart", "watchdog", 9, ""}) ==
+        "u.service is started again and again, it ended by watchdog; journalctl --unit u.service");
+  CHECK(words({"", "loaded", "enabled", "active", "running", "success", 0, "10/s"}).empty());
 }

@@ -78,7 +78,6 @@ TEST_CASE("status: all is well while a replay runs, and a killed ingest is missi
     CHECK(process["memory_bytes"] > 0);
     CHECK(process["other_config"] == false);
   }
-  CHECK(status.process("gvom-ingest-rear")["config_hash"] == status.json["config_hash"]);
   CHECK(status.process("gvom-odometry")["version"] == status.json["version"]);
   CHECK(status.process("gvom-roudi")["pid"] == graph.roudi().pid());
   const Json& fusion = status.process("gvom-fusion");

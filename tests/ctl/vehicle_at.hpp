@@ -34,7 +34,8 @@ struct VehicleAt {
         [this](const std::string& process) {
           const auto found = restarts.find(process);
           return found == restarts.end() ? std::nullopt : std::optional(found->second);
-        }};
+        },
+        [this](const std::string& process) { return process == stopped ? why_stopped : ""; }};
     return ctl::assess(broker, observed, expected, surroundings, {kNow_ns});
   }
 
@@ -48,6 +49,8 @@ struct VehicleAt {
   tools::Usage usage{1.5, 2'000'000'000, 50'000'000};
   std::map<std::string, std::uint64_t> restarts{{"gvom-fusion", 2}};
   std::uint32_t ended_pid = 0;
+  std::string stopped;  ///< A process that systemd says something of.
+  std::string why_stopped;
 };
 
 inline const ctl::ProcessView& process(const ctl::Snapshot& snapshot, const std::string& name) {

@@ -3,7 +3,21 @@
 # shellcheck source=common.bash
 source "$(dirname "$0")/common.bash"
 
+# The package of 0.2 had /etc/gvom/vehicle.yaml as a conffile; whoever changed it is not asked, and keeps it.
+install_old_package() {
+  mkdir -p /tmp/old/DEBIAN /tmp/old/etc/gvom
+  printf '%s\n' 'Package: gvom' 'Version: 0.2.0' 'Architecture: amd64' 'Maintainer: nobody <nobody@localhost>' \
+    'Description: gvom of before, no more than its conffile' > /tmp/old/DEBIAN/control
+  echo "$vehicle" > /tmp/old/DEBIAN/conffiles
+  cp "$(dirname "$0")/../../config/vehicles/two_lidars.yaml" "/tmp/old$vehicle"
+  dpkg-deb --build --root-owner-group /tmp/old /tmp/old.deb > /dev/null
+  dpkg --force-unsafe-io --install /tmp/old.deb > /tmp/dpkg.log 2>&1 || { cat /tmp/dpkg.log; fail "dpkg: 0.2"; }
+  echo '# the administrator was here' >> "$vehicle"
+}
+
 check_install() {
+  grep --quiet 'the administrator was here' "$vehicle" || fail "an upgrade from 0.2 takes the vehicle's file"
+  [[ ! -e $vehicle.dpkg-new && ! -e $vehicle.dpkg-dist && ! -e $vehicle.dpkg-bak ]] || fail "an upgrade from 0.2 leaves copies of the vehicle's file"
   [[ $(systemctl is-enabled gvom.target || true) == disabled ]] || fail "the package enabled something"
   id gvom > /dev/null || fail "no user gvom"
   [[ $(stat --format %U:%G /var/lib/gvom) == gvom:gvom ]] || fail "/var/lib/gvom"
@@ -99,10 +113,13 @@ check_removal() {
   say "removing the package while it runs"
   dpkg --purge gvom > /tmp/dpkg.log 2>&1 || { cat /tmp/dpkg.log; fail "dpkg --purge"; }
   eventually 10 no_process || fail "processes are left: $(pgrep --uid gvom --list-full)"
+  [[ -z $(find /tmp /dev/shm -maxdepth 1 -user gvom ! -type d) ]] || fail "files of the bus are left"
+  grep --quiet 'gvom: /var/lib/gvom is left' /tmp/dpkg.log || { cat /tmp/dpkg.log; fail "purge does not say what it leaves"; }
   [[ ! -e $vehicle && ! -e /usr/lib/systemd/system/gvom.target && ! -e /etc/systemd/system/gvom.target.wants ]] || fail "files are left"
 }
 
 rm -f /usr/sbin/policy-rc.d  # in a container's image it forbids packages to restart anything
+install_old_package
 install_package
 check_install
 use_recording

@@ -9,6 +9,7 @@
 #include "services/common/lifecycle.hpp"
 #include "services/common/vehicle_config.hpp"
 #include "tools/ctl/snapshot.hpp"
+#include "tools/ctl/units.hpp"
 
 namespace gvom::ctl {
 
@@ -38,5 +39,11 @@ int serve_metrics(const Watched& watched, const MetricsOptions& options);
 
 /// Prints what there is to say about the vehicle on this machine. 0, or kNotWell if there is an error.
 int show_check(const services::VehicleConfig& config, bool json);
+
+/// Prints whom of those who run the file's change concerns (services/common/config_concerns.hpp), then has
+/// systemd restart them, unless it is a `dry_run`. 0, 78 if the pools that the file asks for cannot be, 69 if
+/// there is no systemd or it refuses; nothing is changed then.
+int show_reload(const services::VehicleConfig& config, Units& units, const services::Lifecycle& lifecycle,
+                bool dry_run);
 
 }  // namespace gvom::ctl

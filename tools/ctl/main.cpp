@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstring>
 
+#include "services/common/config_concerns.hpp"
 #include "services/common/log.hpp"
 #include "tools/common/broker_user.hpp"
 #include "tools/ctl/commands.hpp"
@@ -20,6 +21,8 @@ struct Options {
   bool json = false;
   double patience_s = 3.0;
   std::uint64_t count = 0;
+  bool dry_run = false;
+  bool keys = false;
   ctl::MetricsOptions metrics;
 };
 
@@ -58,7 +61,25 @@ void add_commands(CLI::App& app, Options& options) {
       ->type_name("IPV4:PORT")
       ->capture_default_str();
   metrics->add_flag("--remote", options.metrics.remote, "an address that other machines reach is meant");
+  auto* const reload = app.add_subcommand(
+      "reload",
+      "loads the vehicle's file and, if it is good, has systemd restart those whom its changes concern; one "
+      "that does not load changes nothing: exit code 78");
+  add_config(*reload, options, false);
+  reload->add_flag("--dry-run", options.dry_run, "say who would be restarted, and end");
+  reload->add_flag("--keys", options.keys, "say which key concerns whom, and end");
+  app.footer(
+      "Examples:\n"
+      "  gvomctl status                          is all well on this vehicle?\n"
+      "  gvomctl status --json | jq .problems    the same for a script\n"
+      "  gvomctl check my.yaml                   will this file work here?\n"
+      "  gvomctl reload --dry-run                whom does my change of the file concern?");
   app.require_subcommand(1);
+}
+
+int say_not_the_broker_user() {
+  spdlog::error("cannot become the user that the broker runs as: {}", std::strerror(errno));
+  return to_int(ExitCode::unavailable);
 }
 
 int say(const services::ConfigError& error) {
@@ -71,16 +92,29 @@ int check(const Options& options) {
   return config ? ctl::show_check(*config, options.json) : say(config.error());
 }
 
+int reload(const Options& options) {
+  if (options.keys) {
+    std::fputs(services::concerns_table().c_str(), stdout);
+    return to_int(ExitCode::ok);
+  }
+  services::Lifecycle lifecycle;
+  const std::string path = options.config.empty() ? ctl::kInstalledVehicle : options.config;
+  const auto config = services::load_vehicle_config(path, options.sets);
+  if (!config) {
+    std::fprintf(stderr, "%s; nothing was changed\n", config.error().text().c_str());
+    return to_int(ExitCode::configuration);
+  }
+  ctl::Units units;
+  if (!tools::become_broker_user()) return say_not_the_broker_user();
+  return ctl::show_reload(*config, units, lifecycle, options.dry_run);
+}
+
 int watch(const std::string& command, const Options& options) {
   services::Lifecycle lifecycle;
   auto expected = ctl::expected_of(options.config, options.sets);
-  if (!expected) return say(expected.error());
   ctl::Units units;
-  if (!tools::become_broker_user()) {
-    spdlog::error("cannot become the user that the broker runs as: {}", std::strerror(errno));
-    return to_int(ExitCode::unavailable);
-  }
-  const ctl::Watched watched{std::move(*expected), ctl::surroundings_of(units), lifecycle};
+  if (!tools::become_broker_user()) return say_not_the_broker_user();
+  const ctl::Watched watched{std::move(expected), ctl::surroundings_of(units), lifecycle};
   if (command == "top") return ctl::show_top(watched, options.count);
   if (command == "metrics") return ctl::serve_metrics(watched, options.metrics);
   const std::chrono::duration<double> patience(options.patience_s);
@@ -102,5 +136,6 @@ int main(int argc, char** argv) {
   }
   services::init_logging("gvomctl");
   const std::string command = app.get_subcommands().front()->get_name();
+  if (command == "reload") return reload(options);
   return command == "check" ? check(options) : watch(command, options);
 }

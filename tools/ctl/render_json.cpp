@@ -98,6 +98,7 @@ std::string to_json(const Snapshot& snapshot) {
   Json json = {{"vehicle", snapshot.vehicle},
                {"version", text_or_null(snapshot.version)},
                {"config_hash", text_or_null(snapshot.config_hash)},
+               {"config_error", text_or_null(snapshot.config_error)},
                {"ok", snapshot.problems.empty()},
                {"problems", snapshot.problems},
                {"broker", word_of(snapshot.broker.state)},

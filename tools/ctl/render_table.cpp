@@ -15,8 +15,10 @@ std::string cell(const char* format, const std::optional<T>& value) {
 }
 
 std::string headline(const Snapshot& snapshot) {
-  const std::string vehicle =
-      snapshot.vehicle.empty() ? "no vehicle file: what is missing cannot be told" : snapshot.vehicle;
+  const std::string vehicle = !snapshot.vehicle.empty() ? snapshot.vehicle
+                              : !snapshot.config_error.empty()
+                                  ? "the vehicle's file does not load"
+                                  : "no vehicle file: what is missing cannot be told";
   const std::size_t problems = snapshot.problems.size();
   if (problems == 0) return vehicle + ": all is well\n";
   return fmt::format("{}: {} problem{}\n", vehicle, problems, problems == 1 ? "" : "s");

@@ -166,7 +166,10 @@ std::optional<double> map_age_s(const ipc::Layers& layers, const std::string& li
 void judge_build(const Expected& expected, ProcessView& view) {
   if (view.state == ProcessState::missing) return;
   view.other_version = !expected.version.empty() && view.version != expected.version;
-  view.other_config = expected.config_hash && view.config_hash != hash_text(*expected.config_hash);
+  const auto of_process = expected.process_hashes.find(view.name);
+  const auto hash =
+      of_process == expected.process_hashes.end() ? expected.config_hash : std::optional(of_process->second);
+  view.other_config = hash && view.config_hash != hash_text(*hash);
 }
 
 /// The broker tells no configuration, but has pools for one.
@@ -217,6 +220,10 @@ std::vector<ProcessView> processes_of(const Broker& broker, const Observed& obse
 void complete(const Observed& observed, const Surroundings& surroundings, const ipc::Moment& now,
               ProcessView& view) {
   view.restarts = surroundings.restarts(view.name);
+  if (view.state == ProcessState::missing && surroundings.why_not_running) {
+    const std::string why = surroundings.why_not_running(view.name);
+    if (!why.empty()) view.reason += (view.reason.empty() ? "" : "; ") + why;
+  }
   const auto& layers = observed.layers();
   if (!layers) return;
   if (view.name == kFusion) view.data_age_s = age_s(*layers, now);
@@ -237,7 +244,7 @@ void add_problems(const ProcessView& process, const std::string& version,
         fmt::format("{} has the pools of another configuration than the file's: restart it", process.name));
   else if (process.other_config)
     problems.push_back(
-        fmt::format("{} runs with another configuration than the file's: restart it", process.name));
+        fmt::format("{} runs with another configuration than the file's: gvomctl reload", process.name));
 }
 
 void add_problems(const LidarView& lidar, std::vector<std::string>& problems) {
@@ -272,6 +279,9 @@ void compare_grounds(const std::vector<ProcessView>& processes, std::vector<std:
 
 std::vector<std::string> problems_of(const Snapshot& snapshot) {
   std::vector<std::string> problems;
+  if (!snapshot.config_error.empty())
+    problems.push_back("the vehicle's file does not load, who is started anew will not run: " +
+                       snapshot.config_error);
   for (const ProcessView& process : snapshot.processes) add_problems(process, snapshot.version, problems);
   compare_grounds(snapshot.processes, problems);
   for (const std::string& refusal : snapshot.refusals) problems.push_back(refusal);
@@ -330,6 +340,7 @@ Snapshot assess(const Broker& broker, const Observed& observed, const Expected& 
                 const Surroundings& surroundings, const ipc::Moment& now) {
   Snapshot snapshot;
   snapshot.vehicle = expected.vehicle;
+  snapshot.config_error = expected.config_error;
   snapshot.version = expected.version;
   if (expected.config_hash) snapshot.config_hash = hash_text(*expected.config_hash);
   snapshot.broker = broker;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,17 +28,20 @@ struct Broker {
 
 /// Which processes the vehicle's file asks for.
 struct Expected {
-  std::string vehicle;                       ///< Empty: no file was given, nothing is missed.
-  std::vector<std::string> processes;        ///< Runtime names, in the order in which they are shown.
-  std::string version;                       ///< Of this gvom; empty: not compared.
-  std::vector<ipc::Pool> pools;              ///< That the broker makes for the file; empty: not known.
-  std::optional<std::uint64_t> config_hash;  ///< Of the file, as ipc::Health has it.
+  std::string vehicle;                 ///< Empty: no file was given, nothing is missed.
+  std::vector<std::string> processes;  ///< Runtime names, in the order in which they are shown.
+  std::string version;                 ///< Of this gvom; empty: not compared.
+  std::vector<ipc::Pool> pools = {};   ///< That the broker makes for the file; empty: not known.
+  std::optional<std::uint64_t> config_hash = std::nullopt;   ///< Of the file.
+  std::map<std::string, std::uint64_t> process_hashes = {};  ///< Of what in it concerns each process.
+  std::string config_error = {};  ///< Why the file does not load: then nothing else of it is known.
 };
 
 /// What is known of processes but from the bus.
 struct Surroundings {
   std::function<std::optional<tools::Usage>(std::uint32_t pid)> usage;
   std::function<std::optional<std::uint64_t>(const std::string& process)> restarts;
+  std::function<std::string(const std::string& process)> why_not_running;  ///< Empty: nothing to say.
 };
 
 /// A process's own word of itself, or what can be told of one that does not speak: silent, it is there; hung,
@@ -106,8 +110,9 @@ struct OdometryView {
 
 struct Snapshot {
   std::string vehicle;
-  std::string version;      ///< Of this gvom.
-  std::string config_hash;  ///< Of the file, 16 hexadecimal digits; empty without one.
+  std::string config_error;  ///< Why the vehicle's file does not load.
+  std::string version;       ///< Of this gvom.
+  std::string config_hash;   ///< Of the file, 16 hexadecimal digits; empty without one.
   Broker broker;
   std::vector<ProcessView> processes;  ///< The broker first.
   std::optional<LayersView> layers;

@@ -20,6 +20,8 @@ bool goes_on(const BusWatch& watch, const Watched& watched) {
 }
 
 int exit_code_of(const Snapshot& snapshot) {
+  if (snapshot.broker.state == BrokerState::absent && !snapshot.config_error.empty())
+    return to_int(services::ExitCode::configuration);
   const bool outside = snapshot.broker.state == BrokerState::up && !snapshot.broker.joined;
   if (snapshot.broker.state == BrokerState::absent || outside) return to_int(services::ExitCode::unavailable);
   return snapshot.problems.empty() ? 0 : kNotWell;

@@ -5,6 +5,7 @@
 
 #include <cerrno>
 #include <cstdlib>
+#include <cstring>
 
 #include "tools/common/health_view.hpp"
 
@@ -31,10 +32,23 @@ sd_bus* open_bus() {
   return bus;
 }
 
+constexpr char kUnit[] = "org.freedesktop.systemd1.Unit";
+constexpr char kService[] = "org.freedesktop.systemd1.Service";
+
 struct Text {
   char* text = nullptr;
   ~Text() { std::free(text); }
 };
+
+std::string path_of(const std::string& unit) {
+  Text path;
+  const int result = sd_bus_path_encode("/org/freedesktop/systemd1/unit", unit.c_str(), &path.text);
+  return result >= 0 ? path.text : "";
+}
+
+bool is_lost(int result) {
+  return result == -ETIMEDOUT || result == -ENOTCONN || result == -ECONNRESET;
+}
 
 }  // namespace
 
@@ -49,21 +63,52 @@ void Units::Close::operator()(sd_bus* bus) const {
 
 Units::Units() : bus_(open_bus()) {}
 
+std::string Units::text(const std::string& path, const char* interface, const char* property) {
+  Text value;
+  if (!bus_) return "";
+  const int result = sd_bus_get_property_string(bus_.get(), kSystemd, path.c_str(), interface, property,
+                                                nullptr, &value.text);
+  if (is_lost(result)) bus_.reset();
+  return result >= 0 ? value.text : "";
+}
+
 std::optional<std::uint64_t> Units::restarts(const std::string& process) {
-  if (!bus_) return std::nullopt;
-  Text path;
-  if (sd_bus_path_encode("/org/freedesktop/systemd1/unit", unit_of(process).c_str(), &path.text) < 0)
-    return std::nullopt;
-  Text loaded;
-  int result = sd_bus_get_property_string(bus_.get(), kSystemd, path.text, "org.freedesktop.systemd1.Unit",
-                                          "LoadState", nullptr, &loaded.text);
+  const std::string path = path_of(unit_of(process));
+  if (text(path, kUnit, "LoadState") != "loaded") return std::nullopt;
   std::uint32_t count = 0;
-  if (result >= 0 && std::string(loaded.text) != "loaded") return std::nullopt;
-  if (result >= 0)
-    result = sd_bus_get_property_trivial(bus_.get(), kSystemd, path.text, "org.freedesktop.systemd1.Service",
-                                         "NRestarts", nullptr, 'u', &count);
-  if (result == -ETIMEDOUT || result == -ENOTCONN || result == -ECONNRESET) bus_.reset();
+  const int result = sd_bus_get_property_trivial(bus_.get(), kSystemd, path.c_str(), kService, "NRestarts",
+                                                 nullptr, 'u', &count);
+  if (is_lost(result)) bus_.reset();
   return result >= 0 ? std::optional<std::uint64_t>(count) : std::nullopt;
+}
+
+std::optional<UnitState> Units::state(const std::string& process) {
+  const std::string unit = unit_of(process);
+  const std::string path = path_of(unit);
+  UnitState state;
+  state.unit = unit;
+  state.load = text(path, kUnit, "LoadState");
+  if (state.load.empty()) return std::nullopt;
+  state.file = text(path, kUnit, "UnitFileState");
+  state.active = text(path, kUnit, "ActiveState");
+  state.sub = text(path, kUnit, "SubState");
+  state.result = text(path, kService, "Result");
+  state.status = text(path, kService, "StatusText");
+  if (bus_)
+    sd_bus_get_property_trivial(bus_.get(), kSystemd, path.c_str(), kService, "ExecMainStatus", nullptr, 'i',
+                                &state.exit_status);
+  return state;
+}
+
+std::optional<std::string> Units::order(const char* method, const std::string& unit) {
+  if (!bus_) return "systemd does not answer";
+  sd_bus_error error = SD_BUS_ERROR_NULL;
+  const int result = sd_bus_call_method(bus_.get(), kSystemd, "/org/freedesktop/systemd1",
+                                        "org.freedesktop.systemd1.Manager", method, &error, nullptr, "ss",
+                                        unit.c_str(), "replace");
+  const std::string message = error.message != nullptr ? error.message : std::strerror(-result);
+  sd_bus_error_free(&error);
+  return result >= 0 ? std::nullopt : std::optional(message);
 }
 
 }  // namespace gvom::ctl

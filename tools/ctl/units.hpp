@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "tools/ctl/unit_state.hpp"
+
 struct sd_bus;
 
 namespace gvom::ctl {
@@ -23,7 +25,17 @@ class Units {
   /// quarter of a second; a systemd that does not answer in that time is not asked again.
   std::optional<std::uint64_t> restarts(const std::string& process);
 
+  /// Nothing without a systemd that answers.
+  std::optional<UnitState> state(const std::string& process);
+
+  /// Puts a job into systemd's queue and does not wait for its end: "TryRestartUnit" (one that runs is
+  /// started anew), "StopUnit". What systemd says if it refuses.
+  std::optional<std::string> order(const char* method, const std::string& unit);
+
+  [[nodiscard]] bool is_open() const { return bus_ != nullptr; }
+
  private:
+  std::string text(const std::string& path, const char* interface, const char* property);
   struct Close {
     void operator()(sd_bus* bus) const;
   };

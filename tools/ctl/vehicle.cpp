@@ -4,6 +4,7 @@
 
 #include "ipc/topic.hpp"
 #include "services/common/bus/pool_spec.hpp"
+#include "services/common/config_concerns.hpp"
 
 namespace gvom::ctl {
 
@@ -17,19 +18,28 @@ Expected expected_of(const services::VehicleConfig& config) {
   expected.processes.emplace_back("gvom-fusion");
   for (const services::LidarConfig& lidar : config.lidars)
     expected.processes.push_back(tools::kIngestPrefix + lidar.name);
+  for (const std::string& process : expected.processes)
+    expected.process_hashes[process] = services::config_hash(config, process);
+  expected.process_hashes["gvom-odometry"] = services::config_hash(config, "gvom-odometry");
   return expected;
 }
 
-tl::expected<Expected, services::ConfigError> expected_of(const std::string& path,
-                                                          const std::vector<std::string>& sets) {
-  if (path.empty() && ::access(kInstalledVehicle, F_OK) != 0)
-    return Expected{"", {}, ipc::release(), {}, std::nullopt};
-  return services::load_vehicle_config(path.empty() ? kInstalledVehicle : path, sets)
-      .map([](const services::VehicleConfig& config) { return expected_of(config); });
+Expected expected_of(const std::string& path, const std::vector<std::string>& sets) {
+  Expected nothing{"", {}, ipc::release()};
+  if (path.empty() && ::access(kInstalledVehicle, F_OK) != 0) return nothing;
+  const auto config = services::load_vehicle_config(path.empty() ? kInstalledVehicle : path, sets);
+  if (config) return expected_of(*config);
+  nothing.processes = {"gvom-fusion"};  // whatever the file says
+  nothing.config_error = config.error().text();
+  return nothing;
 }
 
 Surroundings surroundings_of(Units& units) {
-  return {tools::read_usage, [&units](const std::string& process) { return units.restarts(process); }};
+  return {tools::read_usage, [&units](const std::string& process) { return units.restarts(process); },
+          [&units](const std::string& process) {
+            const auto state = units.state(process);
+            return state ? why_not_running(*state) : "";
+          }};
 }
 
 }  // namespace gvom::ctl

@@ -20,9 +20,9 @@ inline constexpr char kInstalledVehicle[] = "/etc/gvom/vehicle.yaml";
 /// odometry.source (a vehicle's own odometry comes from some process of its own).
 Expected expected_of(const services::VehicleConfig& config);
 
-/// Of the file at `path`; where that is empty, of kInstalledVehicle if it is there, else nothing.
-tl::expected<Expected, services::ConfigError> expected_of(const std::string& path,
-                                                          const std::vector<std::string>& sets);
+/// Of the file at `path`; where that is empty, of kInstalledVehicle if it is there, else nothing. Of one that
+/// does not load it has the reason, and fusion.
+Expected expected_of(const std::string& path, const std::vector<std::string>& sets);
 
 /// From /proc and `units`, which must outlive it.
 Surroundings surroundings_of(Units& units);

@@ -154,6 +154,9 @@ int main(int argc, char** argv) {
       .add_option("--backend", options.backend,
                   "of fusion and all lidars, instead of fusion.backend and lidars.*.backend")
       ->check(CLI::IsMember(std::set<std::string>{"auto", "cpu", "cuda"}));
+  cli.app().footer(
+      "Example:\n  gvom-map --config vehicle.yaml --source top=scans:FOLDER --odometry tum:odometry.tum "
+      "--out maps --voxels");
   auto config = cli.parse(argc, argv);
   if (!config) return to_int(config.error());
   if (options.out.empty()) {

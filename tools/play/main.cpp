@@ -63,6 +63,7 @@ tl::expected<Options, ExitCode> parse(int argc, char** argv) {
   Options options;
   CLI::App app("Sends the UDP payloads of a recording at the recorded pace.", "gvom-play");
   add_options(app, options);
+  app.footer("Example:\n  gvom-play os1.pcap --loop");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

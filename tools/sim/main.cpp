@@ -51,6 +51,7 @@ int main(int argc, char** argv) {
   options.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   std::string directory;
   add_options(cli.app(), options, directory);
+  cli.app().footer("Example:\n  gvom-sim --config vehicle.yaml --out FOLDER --seconds 10");
   const auto vehicle = cli.parse(argc, argv);
   if (!vehicle) return to_int(vehicle.error());
   if (options.length_m() > kLongestDrive) {

@@ -71,6 +71,7 @@ ExitCode run_live(int argc, char** argv) {
   LiveOptions options;
   services::Cli cli("gvom-snapshot", "Draws the layers on the bus: a montage and a picture of each.");
   add_options(cli.app(), options);
+  cli.app().footer("Example:\n  gvom-snapshot --config vehicle.yaml --out pictures --every 2");
   const auto config = cli.parse(argc, argv);
   if (!config) return config.error();
   services::init_logging("gvom-snapshot");

@@ -160,6 +160,7 @@ int main(int argc, char** argv) {
       ->allow_extra_args(false)
       ->check([](const std::string& text) { return parse_also(text) ? "" : "expected NAME=PID"; });
   cli.app().add_flag("--progress", options.progress, "say meanwhile how far it is");
+  cli.app().footer("Example:\n  gvom-summary --config vehicle.yaml --json figures.json");
   const auto config = cli.parse(argc, argv);
   if (!config) return services::to_int(config.error());
   services::init_logging("gvom-summary");

@@ -1,0 +1,102 @@
+#!/usr/bin/env bash
+# Another configuration on a running stack: only whom it concerns is restarted, a file that does not load changes nothing,
+# also at an upgrade, and who is asked says why something does not run.
+# shellcheck source=common.bash
+source "$(dirname "$0")/common.bash"
+
+pids() { for unit in "${members[@]}"; do echo "$unit $(pid_of "$unit")"; done; }
+
+set_key() { sed --in-place "/^$1:/d" "$vehicle"; echo "$1: $2" >> "$vehicle"; }
+
+must_say() {  # must_say WORDS FILE
+  grep --quiet --fixed-strings -- "$1" "$2" || { cat "$2"; fail "nobody says: $1"; }
+}
+
+must_restart() {  # must_restart WORDS UNIT...: the new ones among the members are these, and all are well
+  local words=$1 unit before
+  before=$(pids)
+  shift
+  gvomctl reload > /tmp/reload.log 2>&1 || { cat /tmp/reload.log; fail "gvomctl reload: $words"; }
+  is_new() { [[ $'\n'"$before"$'\n' != *$'\n'"$1 $(pid_of "$1")"$'\n'* ]] && are_active "$1"; }
+  for unit in "$@"; do eventually 20 is_new "$unit" || { cat /tmp/reload.log; fail "$words: $unit is not restarted"; }; done
+  for unit in "${members[@]}"; do
+    if [[ " $* " != *" $unit "* ]] && is_new "$unit"; then cat /tmp/reload.log; fail "$words: $unit is restarted"; fi
+  done
+  eventually 20 gvomctl status > /tmp/status.log 2>&1 || { cat /tmp/status.log; fail "$words: not well"; }
+  say "$words: restarted: $*"
+}
+
+check_hangup() {
+  local before
+  before=$(pids)
+  systemctl kill --signal HUP 'gvom-*'
+  sleep 0.5
+  [[ $(pids) == "$before" ]] || fail "SIGHUP ends somebody"
+  journalctl --unit gvom-fusion --output cat > /tmp/fusion.log
+  must_say "SIGHUP: the configuration is not read again" /tmp/fusion.log
+}
+
+check_broken_file() {
+  local before code=0
+  before=$(pids)
+  cp "$vehicle" /tmp/good.yaml
+  set_key layers '{no_such_key: 1}'
+  gvomctl reload > /tmp/reload.log 2>&1 || code=$?
+  [[ $code == 78 ]] || fail "gvomctl reload of a broken file ends with $code"
+  must_say "no_such_key" /tmp/reload.log
+  must_say "nothing was changed" /tmp/reload.log
+  systemctl reload gvom.target || true
+  code=0
+  gvomctl status > /tmp/status.log 2>&1 || code=$?
+  [[ $code == 1 ]] || fail "gvomctl status with a broken file ends with $code"
+  must_say "the vehicle's file does not load" /tmp/status.log
+  grep --quiet --extended-regexp '^gvom-ingest-rear +ok' /tmp/status.log || { cat /tmp/status.log; fail "status does not see what runs"; }
+  /tmp/control/postinst configure 0.2.0 > /tmp/postinst.log 2>&1 || fail "postinst with a broken file"
+  must_say "NOT RESTARTED" /tmp/postinst.log
+  must_say "no_such_key" /tmp/postinst.log
+  [[ $(pids) == "$before" ]] || fail "a broken file restarts somebody"
+  kill -KILL "$(pid_of gvom-fusion)"
+  eventually 10 has_failed gvom-fusion || fail "gvom-fusion runs with a broken file"
+  gvomctl status > /tmp/status.log 2>&1 || true
+  must_say "gvom-fusion.service failed with exit code 78: $vehicle" /tmp/status.log
+  cp /tmp/good.yaml "$vehicle"
+  say "a broken file changes nothing, and everybody says so"
+  must_restart "mended" gvom-fusion
+}
+
+has_failed() { [[ $(systemctl is-failed "$1") == failed ]]; }
+
+check_not_enabled() {
+  cp "$vehicle" /tmp/good.yaml
+  sed --in-place 's/^lidars:/&\n  left: {source: "ouster:front.pcap?meta=front.json", T_base_sensor: {x: 0, y: 0, z: 1, roll: 0, pitch: 0, yaw: 0}}/' "$vehicle"
+  gvomctl status > /tmp/status.log 2>&1 || true
+  must_say "gvom-ingest@left.service is not enabled: systemctl enable --now gvom-ingest@left.service" /tmp/status.log
+  cp /tmp/good.yaml "$vehicle"
+}
+
+check_no_broker() {
+  stop_all
+  install --mode 600 /dev/null /tmp/roudi.lock
+  systemctl start gvom.target
+  status_says_why() { gvomctl status 2>&1 | grep --quiet "gvom-roudi.service .* exit code 69: /tmp/roudi.lock belongs to user 0"; }
+  eventually 10 status_says_why || { gvomctl status || true; fail "status does not say why there is no broker"; }
+  rm /tmp/roudi.lock
+  say "without a broker the status says why"
+}
+
+unpack_package
+use_small_map
+use_recording
+start_all
+eventually 20 gvomctl status > /tmp/status.log 2>&1 || { cat /tmp/status.log; fail "not well at first"; }
+check_hangup
+set_key layers '{min_hits: 2}'
+must_restart "layers.min_hits" gvom-fusion
+gvomctl reload > /tmp/reload.log 2>&1 || fail "gvomctl reload without a change"
+must_say "nobody who runs is concerned" /tmp/reload.log
+check_broken_file
+check_not_enabled
+set_key window '{buffer_size: 6}'
+must_restart "window.buffer_size" "${members[@]}"
+check_no_broker
+say "well"
