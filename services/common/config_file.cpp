@@ -8,11 +8,7 @@
 #include <set>
 #include <sstream>
 
-#include <yaml-cpp/yaml.h>
-
-#include "services/common/config_check.hpp"
-#include "services/common/config_keys.hpp"
-#include "services/common/config_value.hpp"
+#include "services/common/config_table.hpp"
 #include "services/common/yaml_documents.hpp"
 
 namespace gvom::services {

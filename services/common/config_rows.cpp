@@ -1,4 +1,4 @@
-#include "services/common/config_rows.hpp"
+#include "services/common/config_table.hpp"
 
 #include <algorithm>
 

@@ -7,9 +7,9 @@
 #include <set>
 #include <sstream>
 
-#include "services/common/backend_word.hpp"
 #include "services/common/config_file.hpp"
-#include "services/common/config_rows.hpp"
+#include "services/common/config_table.hpp"
+#include "services/common/vehicle_config.hpp"
 #include "tests/common/temporary_file.hpp"
 
 namespace {

@@ -3,9 +3,9 @@
 
 #include "core/open_backend.hpp"
 #include "ipc/broker.hpp"
-#include "services/common/backend_word.hpp"
 #include "services/common/bus/pool_spec.hpp"
 #include "services/common/odometry_file.hpp"
+#include "services/common/vehicle_config.hpp"
 #include "tools/ctl/check.hpp"
 
 namespace gvom::ctl {

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "services/common/backend_word.hpp"
 #include "services/common/cli.hpp"
 #include "services/common/log.hpp"
+#include "services/common/vehicle_config.hpp"
 #include "services/ingest/loss_words.hpp"
 #include "tools/map/offline.hpp"
 #include "tools/map/output.hpp"
