@@ -129,6 +129,7 @@ bool VelodyneDecoder::decode(const Packet& packet, Sweep& out) {
   if (at == Place::late) ++state_.counters.late_packets;
   if (at == Place::within) ++state_.counters.out_of_order_packets;
   if (at == Place::duplicate || at == Place::late) return false;
+  if (at == Place::next && open_) check_pace(time_ns);
   const bool closed = at == Place::jump && open_ && close(out);
   const bool may_cut = at != Place::within && !closed;
   return use(packet, time_ns, may_cut, out) || closed;
@@ -289,9 +290,29 @@ bool VelodyneDecoder::close(Sweep& out) {
   const bool complete = missing < packet / 2;
   state_.counters.columns += static_cast<std::uint64_t>(received_);
   if (whole_ && !complete) state_.counters.missing_columns += static_cast<std::uint64_t>(missing);
+  if (pace_.is_off()) {
+    builder_.discard();
+    ++state_.counters.dropped_sweeps;
+    forget();
+    return false;
+  }
   const bool kept = builder_.close(received_ / expected, complete, out);
   forget();
   return kept;
+}
+
+void VelodyneDecoder::check_pace(std::int64_t time_ns) {
+  const double packet_us = blocks_used() / (model_.banks * (dual_ ? 2 : 1)) * model_.sequence_us;
+  pace_.see(time_ns - newest_ns_, packet_us);
+  if (!pace_.is_off() || pace_told_) return;
+  pace_told_ = true;
+  char text[200];
+  std::snprintf(
+      text, sizeof text,
+      "a packet comes each %.0f us, one of model %s in this return mode each %.0f: of another model, or of "
+      "other returns than the source says; nothing is used",
+      pace_.seen_us(), std::string(model_.name).c_str(), packet_us);
+  state_.warnings.emplace_back(text);
 }
 
 void VelodyneDecoder::check_hour() {

@@ -11,6 +11,7 @@
 #include "services/ingest/sweep_builder.hpp"
 #include "services/ingest/velodyne_marks.hpp"
 #include "services/ingest/velodyne_model.hpp"
+#include "services/ingest/velodyne_pace.hpp"
 
 namespace gvom::ingest {
 
@@ -64,6 +65,7 @@ class VelodyneDecoder final : public Decoder {
   bool close(Sweep& out);
   void forget();
   void check_hour();
+  void check_pace(std::int64_t time_ns);
 
   struct LaserTrigonometry {
     double cos_vertical, sin_vertical;
@@ -76,6 +78,7 @@ class VelodyneDecoder final : public Decoder {
   SweepBuilder builder_;
   HourClock clock_;
   RestartDetector restart_;
+  VelodynePace pace_;
   std::vector<LaserTrigonometry> lasers_;
   std::array<Shot, kVelodyneBlocks> shots_{};
   std::array<Return, 64> scratch_{};           // the returns of one firing
@@ -93,6 +96,7 @@ class VelodyneDecoder final : public Decoder {
   bool whole_ = false;  // a sweep was closed before the open one: it was seen from its beginning
   bool hour_checked_ = false;
   std::optional<std::int64_t> packet_time_ns_;
+  bool pace_told_ = false;
 };
 
 }  // namespace gvom::ingest

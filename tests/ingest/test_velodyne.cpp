@@ -400,3 +400,31 @@ TEST_CASE("VLP-32C: the table is that of a cloud that another decoder made") {
   CHECK(strays < 5);
   for (const int count : returns) CHECK(count > 200);
 }
+
+TEST_CASE("a model that was taken on trust is not, where packets come at another pace than its") {
+  // VLP-16 packets, each 1327 us, as those of an HDL-32, each 553 us; and the other way round.
+  const auto slow = play(turn(3), "HDL-32&model_byte=0x22");
+  CHECK(slow.sweeps.empty());
+  CHECK(slow.counters.dropped_sweeps == 4);  // and what is behind the third turn
+  REQUIRE(slow.warnings.size() == 1);
+  CHECK(slow.warnings[0].find(
+            "a packet comes each 1327 us, one of model HDL-32 in this return mode each 553") == 0);
+  std::vector<ByteVector> fast = turn(3);
+  for (std::size_t i = 0; i < fast.size(); ++i) {
+    const auto time_us = static_cast<std::uint32_t>(i * 553);
+    std::memcpy(fast[i].data() + 1200, &time_us, 4);
+  }
+  CHECK(play(fast, "VLP-16").sweeps.empty());
+  CHECK(play(turn(3), "VLP-16&returns=dual").sweeps.empty());  // six shots a packet would take half the time
+}
+
+TEST_CASE("lost packets and some out of order are no other pace") {
+  auto packets = turn(6);
+  for (std::size_t i = 10; i + 4 < packets.size(); i += 9) std::swap(packets[i], packets[i + 1]);
+  std::vector<ByteVector> some;
+  for (std::size_t i = 0; i < packets.size(); ++i)
+    if (i % 10 >= 4) some.push_back(packets[i]);
+  const auto played = play(some);
+  CHECK(played.sweeps.size() == 6);
+  CHECK(played.warnings.empty());
+}
