@@ -168,8 +168,8 @@ TEST_CASE("an output holds a montage, an overview and every layer; numbered ones
   auto output = Output::open({folder.path() + "/out", true, true});
   REQUIRE(output);
   for (int i = 0; i < 2; ++i) REQUIRE(output->write(world.picture()));
-  for (const char* name :
-       {"montage.png", "overview.png", "ground.png", "000000-montage.png", "000001-montage.png", "000001/meta.json"})
+  for (const char* name : {"montage.png", "overview.png", "ground.png", "000000-montage.png",
+                           "000001-montage.png", "000001/meta.json"})
     CHECK(std::filesystem::exists(folder.path() + "/out/" + name));
   for (const char* layer : kLayerNames) {
     CHECK(std::filesystem::exists(folder.path() + "/out/" + layer + ".png"));

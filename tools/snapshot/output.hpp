@@ -20,8 +20,8 @@ class Output {
   /// Makes the folder. Errors name it.
   static tl::expected<Output, std::string> open(const OutputOptions& options);
 
-  /// Writes montage.png, overview.png, ground.png, <layer>.png and what the options ask for. Each picture appears whole
-  /// or not at all. Errors name the file.
+  /// Writes montage.png, overview.png, ground.png, <layer>.png and what the options ask for. Each picture
+  /// appears whole or not at all. Errors name the file.
   tl::expected<void, std::string> write(const LayersPicture& picture);
 
   [[nodiscard]] int written() const { return written_; }

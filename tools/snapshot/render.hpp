@@ -26,8 +26,8 @@ MapArea layer_map_area(int n_xy);
 /// Twelve panels, 4 x 3, under a header.
 Canvas render_montage(const LayersPicture& picture);
 
-/// The ground as each lidar sees it, from the side and from behind, against where the vehicle's file puts it, and
-/// the layers' heights there. For each lidar a row.
+/// The ground as each lidar sees it, from the side and from behind, against where the vehicle's file puts it,
+/// and the layers' heights there. For each lidar a row.
 Canvas render_ground(const LayersPicture& picture);
 
 /// One panel, large, under a header.
