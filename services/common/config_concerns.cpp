@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "services/common/config_keys.hpp"
-#include "services/common/config_value.hpp"
+#include "services/common/config_table.hpp"
 
 namespace gvom::services {
 

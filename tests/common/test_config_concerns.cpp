@@ -7,7 +7,7 @@
 
 #include "services/common/config_concerns.hpp"
 #include "services/common/config_file.hpp"
-#include "services/common/config_rows.hpp"
+#include "services/common/config_table.hpp"
 
 using namespace gvom;
 using Names = std::set<std::string>;

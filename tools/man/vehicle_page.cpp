@@ -3,8 +3,7 @@
 #include <string>
 
 #include "services/common/config_concerns.hpp"
-#include "services/common/config_rows.hpp"
-#include "services/common/config_value.hpp"
+#include "services/common/config_table.hpp"
 
 namespace {
 
