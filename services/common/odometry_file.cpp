@@ -28,6 +28,7 @@ class PoseList {
   explicit PoseList(std::string path) : path_(std::move(path)) {}
 
   [[nodiscard]] bool empty() const { return poses_.empty(); }
+  [[nodiscard]] std::int64_t newest_ns() const { return poses_.back().stamp_ns; }
 
   /// False if `pose` is before the one in front of it.
   bool add(const StampedPose& pose, int line) {
@@ -69,8 +70,9 @@ class PoseList {
   int first_repeated_line_ = 0;
 };
 
-std::string expected_time_to_go_on(const LineReader& lines) {
-  return lines.where() + "expected time to go on, found a time before that of the pose in front of it";
+std::string expected_time_to_go_on(const LineReader& lines, std::int64_t from_ns, std::int64_t found_ns) {
+  return lines.where() + "expected time to go on from " + stamp_text(from_ns) + " s, found " +
+         stamp_text(found_ns) + " s";
 }
 
 /// `scheme`: what it was read as; another format that the first line seems to have is named.
@@ -104,7 +106,8 @@ Poses read_stamped(const std::string& path, const Format& format, std::vector<st
     const auto pose = format.parse(lines.text());
     if (!pose && !poses.empty()) return tl::make_unexpected(lines.where() + pose.error());
     if (!pose) return tl::make_unexpected(refusal(lines, pose.error(), header, format.scheme));
-    if (!poses.add(*pose, lines.number())) return tl::make_unexpected(expected_time_to_go_on(lines));
+    if (!poses.add(*pose, lines.number()))
+      return tl::make_unexpected(expected_time_to_go_on(lines, poses.newest_ns(), pose->stamp_ns));
   }
   if (!lines.error().empty()) return tl::make_unexpected(lines.error());
   return poses.take(warnings);
@@ -122,7 +125,8 @@ Poses read_kitti(const std::string& path, const std::string& times_path, std::ve
     if (!pose) return tl::make_unexpected(refusal(lines, pose.error(), "", kKitti));
     if (count < times->size()) {
       pose->stamp_ns = (*times)[count].stamp_ns;
-      if (!poses.add(*pose, lines.number())) return tl::make_unexpected(expected_time_to_go_on(lines));
+      if (!poses.add(*pose, lines.number()))
+        return tl::make_unexpected(expected_time_to_go_on(lines, poses.newest_ns(), pose->stamp_ns));
     }
     ++count;
   }

@@ -97,6 +97,16 @@ std::optional<std::int64_t> parse_stamp_ns(std::string_view text) {
   return decimal->negative ? -value : value;
 }
 
+std::string stamp_text(std::int64_t stamp_ns) {
+  constexpr std::uint64_t kSecond_ns = 1'000'000'000;
+  const auto size =
+      stamp_ns < 0 ? -static_cast<std::uint64_t>(stamp_ns) : static_cast<std::uint64_t>(stamp_ns);
+  std::string decimals = std::to_string(kSecond_ns + size % kSecond_ns).substr(1);
+  decimals.erase(decimals.find_last_not_of('0') + 1);
+  return (stamp_ns < 0 ? "-" : "") + std::to_string(size / kSecond_ns) + (decimals.empty() ? "" : ".") +
+         decimals;
+}
+
 std::optional<std::int64_t> parse_date_ns(std::string_view text) {
   std::tm date{};
   if (!text.empty() && text.back() == 'Z') text.remove_suffix(1);

@@ -61,7 +61,8 @@ TEST_CASE("bad lines are refused with their number and the reason") {
 }
 
 TEST_CASE("time that goes back is refused") {
-  CHECK_THAT(error_of(kFirst + "0.9 0 0 0 0 0 0 1\n"), Contains(":2: expected time to go on"));
+  CHECK_THAT(error_of(kFirst + "0.9 0 0 0 0 0 0 1\n"),
+             Contains(":2: expected time to go on from 1 s, found 0.9 s"));
 }
 
 TEST_CASE("of poses with the same stamp the first is taken, and it is told how many were left out") {

@@ -7,6 +7,7 @@
 using namespace gvom;
 using services::parse_date_ns;
 using services::parse_stamp_ns;
+using services::stamp_text;
 
 TEST_CASE("stamps are exact to the nanosecond, where a double is not") {
   CHECK(parse_stamp_ns("1311868163.869999886") == 1311868163869999886);
@@ -62,4 +63,11 @@ TEST_CASE("a file of times: seconds or dates, with the lines they are in") {
   CHECK((*stamps)[1].line == 4);
   const test::TemporaryFile bad("1\nlater\n");
   CHECK(services::read_stamps(bad.path()).error().find(bad.path() + ":2: 'later' is not a time") == 0);
+}
+
+TEST_CASE("a stamp in words is decimal seconds, exactly") {
+  CHECK(stamp_text(999'900'000'000) == "999.9");
+  CHECK(stamp_text(-1) == "-0.000000001");
+  CHECK(stamp_text(5'000'000'000) == "5");
+  CHECK(stamp_text(INT64_MIN) == "-9223372036.854775808");
 }

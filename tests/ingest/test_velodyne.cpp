@@ -406,7 +406,7 @@ TEST_CASE("a model that was taken on trust is not, where packets come at another
   const auto slow = play(turn(3), "HDL-32&model_byte=0x22");
   CHECK(slow.sweeps.empty());
   CHECK(slow.counters.dropped_sweeps == 4);  // and what is behind the third turn
-  REQUIRE(slow.warnings.size() == 1);
+  REQUIRE(!slow.warnings.empty());
   CHECK(slow.warnings[0].find(
             "a packet comes each 1327 us, one of model HDL-32 in this return mode each 553") == 0);
   std::vector<ByteVector> fast = turn(3);

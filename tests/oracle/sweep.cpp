@@ -106,12 +106,10 @@ std::optional<BufferMap> map_sweep(const MapperConfig& config, const LidarGeomet
                                    const std::vector<StampedPose>& odometry) {
   const std::optional<Pose> at_stamp = pose_at(odometry, sweep.stamp_ns);
   if (!at_stamp) return std::nullopt;
-  std::vector<Pose> poses;
-  for (const std::int64_t time_ns : sweep.times_ns) {
-    const std::optional<Pose> pose = pose_at(odometry, time_ns);
-    if (!pose) return std::nullopt;
-    poses.push_back(*pose);
-  }
+  std::vector<std::optional<Pose>> poses;
+  for (const std::int64_t time_ns : sweep.times_ns) poses.push_back(pose_at(odometry, time_ns));
+  for (const Return& r : sweep.returns)
+    if (!poses[r.time_index]) return std::nullopt;
   BufferMap map;
   map.stamp_ns = sweep.stamp_ns;
   map.T_odom_base = *at_stamp;
@@ -120,7 +118,7 @@ std::optional<BufferMap> map_sweep(const MapperConfig& config, const LidarGeomet
   for (const Return& r : sweep.returns) {
     std::uint64_t* dropped = reason_to_drop(r, lidar, config.vehicle, map.filter);
     ++(dropped != nullptr ? *dropped : map.filter.used);
-    if (dropped == nullptr) add_ray(OdomRay(poses[r.time_index], lidar.T_base_sensor, r), box);
+    if (dropped == nullptr) add_ray(OdomRay(*poses[r.time_index], lidar.T_base_sensor, r), box);
   }
   map.observed = observed_voxels(box);
   return map;
