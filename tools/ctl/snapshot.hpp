@@ -16,6 +16,8 @@
 
 namespace gvom::ctl {
 
+inline constexpr char kBroker[] = "gvom-roudi";
+
 /// The broker, by a look from outside (ipc/broker_probe.hpp) and by joining its bus.
 enum class BrokerState { absent, hung, up };
 
@@ -130,6 +132,9 @@ const char* to_string(ipc::GroundVerdict verdict);
 
 /// "starting", "ok", ..., "unknown".
 const char* to_string(ProcessState state);
+
+/// What is not as it should be, in words; empty: all is well.
+std::vector<std::string> problems_of(const Snapshot& snapshot);
 
 Snapshot assess(const Broker& broker, const Observed& observed, const Expected& expected,
                 const Surroundings& surroundings, const ipc::Moment& now);
