@@ -24,13 +24,14 @@ std::string key_of(SweepLoss why, const services::OdometryConfig& config) {
   return {};
 }
 
-/// If no sweep met the odometry: whose clock it may be.
+/// If no sweep met the odometry: whose clock it may be, and the keys for that.
 std::string guess(const SweepLosses& losses, const TimeSpan& odometry) {
   const SweepLosses::Of& before = losses.of(SweepLoss::before_odometry);
   const SweepLosses::Of& after = losses.of(SweepLoss::after_odometry);
   if (losses.placed() != 0 || (before.count == 0) == (after.count == 0)) return {};
   const std::string words = guess_clock(before.count != 0 ? before.stamps : after.stamps, odometry);
-  return words.empty() ? words : " (" + words + ")";
+  return (words.empty() ? "" : " (" + words + ")") +
+         "; for clocks that differ there are lidars.NAME.clock_offset_s and lidars.NAME.clock: arrival";
 }
 
 }  // namespace
@@ -64,8 +65,10 @@ std::vector<std::string> explain(const SweepLosses& losses, const OdometryIntake
     const auto why = static_cast<SweepLoss>(i);
     const SweepLosses::Of& of = losses.of(why);
     if (of.count == 0) continue;
+    const bool beyond = why == SweepLoss::before_odometry || why == SweepLoss::after_odometry;
     lines.push_back(fmt::format("{} sweeps not mapped: {}{}: {}, sweeps {}{}", of.count, words_of(why),
-                                key_of(why, odometry.config()), odometry_span, span_text(of.stamps), clock));
+                                key_of(why, odometry.config()), odometry_span, span_text(of.stamps),
+                                beyond ? clock : ""));
   }
   return lines;
 }

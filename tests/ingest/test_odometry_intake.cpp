@@ -189,7 +189,7 @@ TEST_CASE("what was lost is told by reason, with the key or the times that decid
   REQUIRE(lines.size() == 2);
   CHECK(lines[0] ==
         "3 sweeps not mapped: after the odometry: odometry spans 10.0 .. 20.0 s, sweeps 991.6 .. 991.8 "
-        "s");
+        "s; for clocks that differ there are lidars.NAME.clock_offset_s and lidars.NAME.clock: arrival");
   CHECK(lines[1] ==
         "1 sweeps not mapped: in a gap of the odometry (odometry.max_gap_s is 0.5): odometry spans 10.0 .. "
         "20.0 "
