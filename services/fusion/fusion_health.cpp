@@ -37,8 +37,7 @@ void FusionNode::judge() {
   if (old)
     words.add(fresh_ ? "the layers are %.1f s behind the packets" : "no maps: the layers are %.1f s old",
               std::chrono::duration<double>(age).count());
-  else
-    lateness_.describe(now, words);
+  if (!old || !fresh_) lateness_.describe(now, words);
   if (!words.empty())
     health_.set_state(ipc::HealthState::degraded, words.text());
   else if (last_layers_ns_ == 0)
