@@ -90,6 +90,12 @@ TEST_CASE("a process that began in the middle is judged from there on") {
   CHECK(balance.uncounted() == 1);
 }
 
+TEST_CASE("where it began is not told by one look that came in between") {
+  Balance balance(false);
+  for (const int difference : {640, 639, 640, 640, 640, 640}) balance.look(difference);
+  CHECK(balance.uncounted() == 0);
+}
+
 TEST_CASE("only what was told in a pause is looked at") {
   Ledger ledger;
   Pauses pauses({"front"}, ledger);

@@ -36,7 +36,10 @@ std::int64_t Balance::uncounted() const {
   const auto count = std::min<std::size_t>(looks_, kLooks);
   if (from_zero_) return count < 2 ? 0 : nearest_to_zero(newest_.data(), count);
   if (looks_ <= kLooks) return 0;
-  const std::int64_t begin = *std::min_element(first_.begin(), first_.end());
+  // One of them may be off either way: a map was under way, or came between a Health and its being read.
+  auto begins = first_;
+  std::sort(begins.begin(), begins.end());
+  const std::int64_t begin = begins[kLooks / 2];
   std::array<std::int64_t, kLooks> since{};
   std::transform(newest_.begin(), newest_.end(), since.begin(),
                  [begin](auto value) { return value - begin; });
