@@ -25,6 +25,7 @@ struct Sweep {
   std::int64_t stamp_ns = 0;  ///< The time of the last return (R1).
   /// CLOCK_MONOTONIC when the last packet of the sweep was read; 0 where a replay has no such moment.
   std::int64_t received_ns = 0;
+  std::int64_t suspended_ns = 0;       ///< How long the machine had been suspended until then.
   bool complete = true;                ///< False if packets or columns of it are missing.
   double columns_seen_fraction = 1.0;  ///< Of its columns, 0 .. 1; 1 if it is complete.
 
@@ -33,6 +34,7 @@ struct Sweep {
     times_ns.clear();
     stamp_ns = 0;
     received_ns = 0;
+    suspended_ns = 0;
     complete = true;
     columns_seen_fraction = 1.0;
   }

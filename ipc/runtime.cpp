@@ -80,15 +80,6 @@ Expected<void> check_runtime_name(const std::string& name) {
                                      "a dot, not 'roudi'"});
 }
 
-std::int64_t suspended_ns() {
-  std::int64_t most_ns = 0;  // each look says at most the truth: this thread may pause within it
-  for (int look = 0; look < 3; ++look) {
-    const std::int64_t boot_ns = clock_ns(CLOCK_BOOTTIME);
-    most_ns = std::max(most_ns, boot_ns - clock_ns(CLOCK_MONOTONIC));
-  }
-  return (most_ns + 500'000) / 1'000'000 * 1'000'000;
-}
-
 Expected<Runtime> Runtime::connect(const std::string& name, std::chrono::milliseconds timeout, LogSink log) {
   if (auto may_join = check_may_join(name, timeout); !may_join) return tl::unexpected(may_join.error());
   auto segment = segment_path();

@@ -26,10 +26,6 @@ Expected<void> check_runtime_name(const std::string& name);
 /// True if a broker's socket takes messages at this moment. Costs a few microseconds.
 bool broker_answers();
 
-/// How long the machine was suspended since its start, in whole milliseconds: CLOCK_MONOTONIC stands still
-/// then.
-std::int64_t suspended_ns();
-
 /// A stretch of this process's address space.
 struct MemoryRange {
   std::byte* base = nullptr;

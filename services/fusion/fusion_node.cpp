@@ -170,7 +170,7 @@ void FusionNode::begin_epoch(std::uint64_t epoch) {
 
 void FusionNode::begin_after_jump(std::int64_t stamp_ns) {
   ++counters_.odometry_jumps;
-  spdlog::warn("the odometry has jumped: the window is emptied");
+  complain("the odometry has jumped: the window is emptied");
   jump_ns_ = stamp_ns;
   empty_window();
 }

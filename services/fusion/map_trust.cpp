@@ -46,6 +46,10 @@ std::optional<MapLie> MapTrust::judge(const ipc::BrickMap& map, std::int64_t now
     return lie(MapLie::About::time, "the odometry is to jump " +
                                         seconds(map.odometry_jump_ns - header.stamp_ns) + " after its stamp");
   const bool comparable = heard_ && header.epoch == odometry_epoch_;
+  if (comparable && map.odometry_jump_ns > odometry_stamp_ns_)
+    return lie(MapLie::About::time, "the odometry is to jump " +
+                                        seconds(map.odometry_jump_ns - odometry_stamp_ns_) +
+                                        " after what is heard of it");
   if (comparable && header.stamp_ns - kMostAhead_ns > odometry_stamp_ns_)
     return lie(MapLie::About::time,
                "its stamp is " + seconds(header.stamp_ns - odometry_stamp_ns_) + " ahead of the odometry");

@@ -178,7 +178,7 @@ bool IngestNode::publish(const Sweep& sweep, const BrickMapShape& shape, std::in
   header.odometry_jump_ns = odometry_.poses().jump_before(sweep.stamp_ns);
   // A recording's sweep is there, as a sensor's would be, when the clock reaches it.
   header.mono_received_ns = sweep.received_ns != 0 ? sweep.received_ns : odometry_.came_ns();
-  header.suspended_ns = ipc::suspended_ns();
+  header.suspended_ns = sweep.received_ns != 0 ? sweep.suspended_ns : ipc::suspended_ns();
   header.mono_mapped_ns = begin_ns;
   counters_.wait.record_ns(begin_ns - header.mono_received_ns);
   if (const auto written = mapper_.write(writer->arrays()); !written) {
@@ -231,7 +231,8 @@ std::uint64_t IngestNode::judge(std::int64_t now_ns) {
   services::Words words;
   odometry_.describe(now_ns, words);
   if (reader_.is_live()) {
-    sensor_watch_.update(reader_.counters(), reader_.overruns().slow, now_ns);
+    const auto overruns = reader_.overruns();
+    sensor_watch_.update(reader_.counters(), overruns.slow + overruns.waiting, now_ns);
     sensor_watch_.describe(words);
   } else if (const SourceCounters& c = reader_.counters(); c.sweeps == 0 && c.dropped_sweeps > 0) {
     tell_dropped(100 * c.best_dropped_fraction, lidar_, words);

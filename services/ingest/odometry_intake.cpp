@@ -15,6 +15,9 @@ std::int64_t nanoseconds(double duration_s) {
   return static_cast<std::int64_t>(duration_s * 1e9);
 }
 
+/// Of odometry.max_gap_s. A wrong stamp once is no gap of years.
+constexpr double kLongestGap_s = 60;
+
 /// A clock that seems to be wrong is looked at again for so long.
 constexpr std::int64_t kClockPatience_ns = 300'000'000;
 
@@ -28,6 +31,12 @@ std::int64_t newest_ns(const Sweep& sweep) {
 SweepLoss loss_of(Reach reach) {
   if (reach == Reach::gap) return SweepLoss::gap;
   return reach == Reach::jump ? SweepLoss::jump : SweepLoss::before_odometry;
+}
+
+/// Where the clock went back nothing says that the frame is the same: maps from before must go.
+PoseLink link_of(Taken taken) {
+  if (taken == Taken::gap) return PoseLink::gap;
+  return taken == Taken::jump || taken == Taken::anew ? PoseLink::jump : PoseLink::steady;
 }
 
 }  // namespace
@@ -66,9 +75,7 @@ Taken OdometryIntake::take_pose(const StampedPose& pose, std::int64_t now_ns) {
     poses_.clear();
     span_.reset();
   }
-  poses_.add(pose, taken == Taken::gap    ? PoseLink::gap
-                   : taken == Taken::jump ? PoseLink::jump
-                                          : PoseLink::steady);
+  poses_.add(pose, link_of(taken));
   clock_.take_odometry(pose.stamp_ns, now_ns);
   span_ = TimeSpan{span_ ? span_->first_ns : pose.stamp_ns, pose.stamp_ns};
   return taken;
@@ -82,7 +89,7 @@ Taken OdometryIntake::note_step(const PoseJudge::Verdict& verdict, std::int64_t 
     case PoseStep::gap:
       // Told for as long as the next one may take to show, so that odometry that is too slow stays told.
       seen_.see(OdometryFault::gap, verdict.value, now_ns,
-                Sightings<OdometryFault>::kHold_ns + nanoseconds(verdict.value));
+                Sightings<OdometryFault>::kHold_ns + nanoseconds(std::min(verdict.value, kLongestGap_s)));
       return ++counts_.gaps, Taken::gap;
     case PoseStep::jump:
       seen_.see(OdometryFault::jump, verdict.value, now_ns);

@@ -271,7 +271,7 @@ void OusterDecoder::use(const Packet& packet) {
   }
   if (duplicate) ++state_.counters.duplicate_packets;
   if (behind) ++state_.counters.out_of_order_packets;
-  builder_.set_received(packet.received_ns);
+  builder_.set_received(packet);
 }
 
 void OusterDecoder::use_column(const std::uint8_t* bytes, const OusterColumn& column) {

@@ -20,9 +20,10 @@ struct Packet {
   std::size_t size = 0;
   /// When the kernel had it, live or in the recording's capture: Unix time, of a clock that may be set.
   std::int64_t capture_ns = 0;
-  std::int64_t received_ns = 0;  ///< The same on CLOCK_MONOTONIC; 0 in a recording.
-  Address source{};              ///< The sender.
-  std::uint16_t port = 0;        ///< The destination port.
+  std::int64_t received_ns = 0;   ///< The same on CLOCK_MONOTONIC; 0 in a recording.
+  std::int64_t suspended_ns = 0;  ///< How long the machine had been suspended until then, live.
+  Address source{};               ///< The sender.
+  std::uint16_t port = 0;         ///< The destination port.
 };
 
 /// What the parts of one source report to.

@@ -1,6 +1,7 @@
 #include "services/ingest/packet_sweep_source.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <utility>
 
 #include "ipc/clock.hpp"
@@ -13,6 +14,8 @@ constexpr int kUnrecognisedBeforeWarning = 500;
 // caller.
 constexpr std::int64_t kMaxOvertimeNs = 50'000'000;
 constexpr std::int64_t kSilenceNs = 1'000'000'000;
+constexpr std::int64_t kWallStep_ns = 10'000'000;
+constexpr int kWallPackets = 8;  // one may differ that waited while the clock was set
 
 std::string why_no_sweep(const SourceCounters& c) {
   const std::pair<std::uint64_t, const char*> reasons[] = {
@@ -143,8 +146,21 @@ bool PacketSweepSource::withhold(Sweep& out) {
   return false;
 }
 
+/// Live, arrivals are the wall clock's. Where that was set, the line through them begins anew: it would take
+/// a small step for a delay.
+bool PacketSweepSource::wall_was_set(const Packet& packet) {
+  if (packet.received_ns == 0) return false;
+  const std::int64_t ahead_ns = packet.capture_ns - packet.received_ns;
+  const bool differs = wall_ahead_ns_ && std::llabs(ahead_ns - *wall_ahead_ns_) > kWallStep_ns;
+  wall_differs_ = differs ? wall_differs_ + 1 : 0;
+  if (differs && wall_differs_ < kWallPackets) return false;
+  wall_ahead_ns_ = ahead_ns;
+  wall_differs_ = 0;
+  return differs;
+}
+
 bool PacketSweepSource::use(const Packet& packet, Sweep& out) {
-  if (arrival_ && clock_is_new_) arrival_.emplace();
+  if (arrival_ && (wall_was_set(packet) || clock_is_new_)) arrival_.emplace();
   clock_is_new_ = false;
   const bool closed = decoder_->decode(packet, out);
   const auto stamp_ns = decoder_->packet_time_ns();

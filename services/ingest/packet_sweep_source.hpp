@@ -32,6 +32,7 @@ class PacketSweepSource final : public Source {
 
  private:
   bool decode(const Packet& packet, Sweep& out);
+  bool wall_was_set(const Packet& packet);
   bool use(const Packet& packet, Sweep& out);
   /// Gives a whole sweep the times that its reader asked for.
   SourceEvent hand_out(Sweep& out) const;
@@ -52,7 +53,9 @@ class PacketSweepSource final : public Source {
   std::unique_ptr<PacketSource> packets_;
   std::unique_ptr<Decoder> decoder_;
   std::optional<ArrivalClock> arrival_;
-  bool clock_is_new_ = false;  // the sensor changed
+  bool clock_is_new_ = false;                  // the sensor changed
+  std::optional<std::int64_t> wall_ahead_ns_;  // of CLOCK_MONOTONIC, live
+  int wall_differs_ = 0;                       // packets running
   std::int64_t clock_offset_ns_;
   std::optional<Address> only_from_;
   PortOwner owner_;                   // live

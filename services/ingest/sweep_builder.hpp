@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "core/sweep.hpp"
+#include "services/ingest/packet.hpp"
 #include "services/ingest/source.hpp"
 
 namespace gvom::ingest {
@@ -21,7 +22,10 @@ class SweepBuilder {
   void append(const Return* returns, std::size_t count);
 
   /// The moment at which the sweep's newest packet was read.
-  void set_received(std::int64_t received_ns) { open_.received_ns = received_ns; }
+  void set_received(const Packet& packet) {
+    open_.received_ns = packet.received_ns;
+    open_.suspended_ns = packet.suspended_ns;
+  }
 
   [[nodiscard]] std::size_t times() const { return open_.times_ns.size(); }
 

@@ -88,7 +88,10 @@ tl::expected<PacketEvent, std::string> UdpReceiver::receive(Packet& out) {
   const ssize_t size = ::recvmsg(socket_, &message, MSG_DONTWAIT);
   if (size < 0) {
     const bool nothing = errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR || errno == ECONNREFUSED;
-    if (errno == EAGAIN || errno == EWOULDBLOCK) not_before_ns_ = asked_ns;
+    if (errno == EAGAIN || errno == EWOULDBLOCK) {
+      not_before_ns_ = asked_ns;
+      suspended_ns_ = ipc::suspended_ns();
+    }
     if (nothing) return PacketEvent::idle;
     return tl::unexpected(to_text(options_) + ": " + std::strerror(errno));
   }
@@ -100,6 +103,7 @@ tl::expected<PacketEvent, std::string> UdpReceiver::receive(Packet& out) {
   out.size = static_cast<std::size_t>(size);
   out.capture_ns = beside.arrived_ns;
   out.received_ns = received_at(beside.arrived_ns);
+  out.suspended_ns = suspended_ns_;
   out.source = address_of(sender);
   out.port = options_.port;
   return PacketEvent::packet;

@@ -38,6 +38,7 @@ class UdpReceiver final : public PacketSource {
   SourceState& state_;
   std::vector<std::uint8_t> buffer_;
   std::uint32_t kernel_drops_ = 0;  // as the kernel counts them, since the socket was opened
+  std::int64_t suspended_ns_ = 0;   // until then
   std::int64_t not_before_ns_;      // of the packet before, or when the queue was last seen empty
 };
 

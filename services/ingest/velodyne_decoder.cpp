@@ -171,7 +171,7 @@ bool VelodyneDecoder::use(const Packet& packet, std::int64_t time_ns, bool may_c
   newest_ns_ = std::max(newest_ns_, time_ns);
   packet_times_ns_.push_back(time_ns);
   packet_time_ns_ = newest_time_ns_;
-  builder_.set_received(packet.received_ns);
+  builder_.set_received(packet);
   return closed;
 }
 

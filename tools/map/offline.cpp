@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "services/common/odometry_file.hpp"
+#include "services/common/stamps.hpp"
 #include "services/ingest/source_options.hpp"
 
 namespace gvom::tools {
@@ -64,9 +65,14 @@ OfflineExpected<void> OfflineMapper::add_odometry(services::OdometryConfig confi
   }
   using ingest::OdometryIntake;
   odometry_ = std::make_unique<OdometryIntake>(config, OdometryIntake::Sweeps::recorded, poses.size());
-  for (const StampedPose& pose : poses)
-    if (odometry_->take({pose}, 0) == ingest::Taken::not_a_pose)
+  for (const StampedPose& pose : poses) {
+    const ingest::Taken taken = odometry_->take({pose}, 0);
+    if (taken == ingest::Taken::not_a_pose)
       return bad_data(odometry + ": a pose is too far away to be mapped");
+    if (taken == ingest::Taken::jump)
+      warnings_.push_back(odometry + ": has jumped at " + services::stamp_text(pose.stamp_ns) +
+                          " s (odometry.max_speed_mps is exceeded): the map begins anew there");
+  }
   odometry_->take({poses.back(), 0, true}, 0);
   return {};
 }
@@ -131,6 +137,7 @@ OfflineExpected<bool> OfflineMapper::fuse(std::size_t index, std::unique_ptr<Bri
     fuser_->reset();
     window_.clear();
   }
+  if (jump_ns_ != 0 && stamp_ns < jump_ns_) return ++refused_, false;
   const std::uint64_t token = next_token_++;
   const BrickMapView view = map->view(lidar.mapper->grid(), stamp_ns, lidar.mapper->T_odom_base());
   window_.emplace(token, std::move(map));
