@@ -16,18 +16,35 @@ using Reader = MetadataReader;
 constexpr std::size_t kMaxBeams = 512;
 constexpr int kMaxColumns = 8192;
 constexpr double kDefaultBeamOffsetMm = 15.806;
+constexpr std::size_t kLeastRealBeams = 16;  // no sensor has fewer; what is told of all holds from there on
 constexpr std::array<double, 16> kDefaultLidarToSensor{-1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 36.18, 0, 0, 0, 1};
+
+std::size_t distinct(std::vector<double> angles) {
+  std::sort(angles.begin(), angles.end());
+  return static_cast<std::size_t>(std::unique(angles.begin(), angles.end()) - angles.begin());
+}
 
 /// Beams run from the top to the bottom, or the other way; neighbours of a real sensor may change places by a
 /// little. A garbled list does not, and all of it alike is no sensor with beams.
 void check_altitudes(Reader& reader, const std::vector<double>& angles) {
   constexpr const char* kKey = "beam_altitude_angles";
   constexpr double kMostBack_deg = 1;
+  constexpr double kLeastRange_deg = 5;  // of a sensor 20 and more; radians stay under 2
+  constexpr double kLeastDistinct = 0.9;
   if (angles.size() < 2) return;
   const auto [low, high] = std::minmax_element(angles.begin(), angles.end());
   if (*high - *low < 1e-6) {
     return reader.fail(kKey, "all " + std::to_string(angles.size()) + " angles are " + text_of(angles[0]) +
                                  ": not those of a sensor");
+  }
+  if (angles.size() >= kLeastRealBeams && *high - *low < kLeastRange_deg) {
+    return reader.fail(kKey, "the angles go from " + text_of(*low) + " to " + text_of(*high) +
+                                 " only: expected degrees, those of a sensor");
+  }
+  const std::size_t different = distinct(angles);
+  if (static_cast<double>(different) < kLeastDistinct * static_cast<double>(angles.size())) {
+    return reader.fail(kKey, "only " + std::to_string(different) + " of " + std::to_string(angles.size()) +
+                                 " angles are different: not those of a sensor");
   }
   const double down = angles.front() > angles.back() ? 1 : -1;
   for (std::size_t i = 1; i < angles.size(); ++i) {
@@ -35,6 +52,13 @@ void check_altitudes(Reader& reader, const std::vector<double>& angles) {
     return reader.fail(kKey, "the angles go from " + text_of(angles[i - 1]) + " to " + text_of(angles[i]) +
                                  " where they should go on to " + text_of(angles.back()));
   }
+}
+
+/// The beams of a sensor are staggered.
+void check_azimuths(Reader& reader, const std::vector<double>& angles) {
+  if (angles.size() < kLeastRealBeams || distinct(angles) > 1) return;
+  reader.fail("beam_azimuth_angles", "all " + std::to_string(angles.size()) + " angles are " +
+                                         text_of(angles[0]) + ": not those of a sensor");
 }
 
 void read_angles(Reader& reader, OusterMetadata& out) {
@@ -55,6 +79,7 @@ void read_angles(Reader& reader, OusterMetadata& out) {
                                            std::to_string(beams) + " in beam_altitude_angles");
   }
   check_altitudes(reader, out.beam_altitude_deg);
+  check_azimuths(reader, out.beam_azimuth_deg);
 }
 
 int columns_of_mode(Reader& reader) {
@@ -161,6 +186,11 @@ void read_data_format(Reader& reader, OusterMetadata& out) {
   read_window(reader, out);
 }
 
+/// Of a sensor about 14 to 28 mm; metres would be less than 1.
+bool is_beam_offset(double mm) {
+  return mm == 0 || (mm >= 1 && mm <= 100);
+}
+
 void read_beam_offset(Reader& reader, OusterMetadata& out) {
   if (const Json* json = reader.find({"beam_intrinsics"}, "beam_to_lidar_transform")) {
     const auto m = reader.numbers(*json, "beam_to_lidar_transform", 1000.0);
@@ -169,6 +199,10 @@ void read_beam_offset(Reader& reader, OusterMetadata& out) {
                         m[6] == 0 && m[8] == 0 && m[9] == 0;
     if (!shifts || m[7] != 0) {
       return reader.fail("beam_to_lidar_transform", "expected a shift along x and z, and no turn");
+    }
+    if (!is_beam_offset(m[3])) {
+      return reader.fail("beam_to_lidar_transform",
+                         "expected a shift of 0 or 1 .. 100 mm along x, got " + text_of(m[3]));
     }
     out.beam_offset_x_mm = m[3];
     out.beam_offset_z_mm = m[11];
@@ -179,8 +213,9 @@ void read_beam_offset(Reader& reader, OusterMetadata& out) {
     out.beam_offset_x_mm = kDefaultBeamOffsetMm;
     return reader.warn("no lidar_origin_to_beam_origin_mm: 15.806 stands in for it");
   }
-  if (!json->is_number() || !(std::abs(json->get<double>()) <= 1000.0)) {
-    return reader.fail("lidar_origin_to_beam_origin_mm", "expected millimetres, got " + shown(*json));
+  if (!json->is_number() || !is_beam_offset(json->get<double>())) {
+    return reader.fail("lidar_origin_to_beam_origin_mm",
+                       "expected millimetres, 0 or 1 .. 100, got " + shown(*json));
   }
   out.beam_offset_x_mm = json->get<double>();
 }

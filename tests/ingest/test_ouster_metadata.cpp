@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <filesystem>
+
 #include "services/ingest/ouster_metadata.hpp"
 #include "tests/ingest/ouster_builder.hpp"
 #include "tests/ingest/recordings.hpp"
@@ -128,6 +131,46 @@ TEST_CASE("beam angles that no sensor has are refused") {
   CHECK_FALSE(read(sensor.json()).metadata.has_value());
 }
 
+TEST_CASE("lists of angles that are garbled in part, of 16 beams and more, are refused") {
+  const auto list = [](auto angle) {
+    std::string text;
+    for (int beam = 0; beam < 128; ++beam) text += (beam == 0 ? "[" : ", ") + std::to_string(angle(beam));
+    return text + "]";
+  };
+  const auto altitude = [](int beam) { return 21.0 - beam / 3.0; };
+  OusterSensor good;
+  good.beams = 128;
+  good.altitudes = list(altitude);
+  good.azimuths = list([](int beam) { return beam % 2 == 0 ? 3.0 : -3.0; });
+  CHECK(read(good.json()).metadata.has_value());
+  OusterSensor sensor = good;
+  sensor.azimuths = list([](int) { return 0.0; });
+  check_error(sensor.json(), "beam_azimuth_angles: all 128 angles are 0: not those of a sensor");
+  sensor = good;
+  sensor.altitudes = list([&](int beam) { return altitude(std::max(beam, 63)); });
+  check_error(sensor.json(), "beam_altitude_angles: only 65 of 128 angles are different");
+  sensor.altitudes = list([&](int beam) { return altitude(beam / 2 * 2); });
+  check_error(sensor.json(), "beam_altitude_angles: only 64 of 128 angles are different");
+  sensor.altitudes = list([&](int beam) { return beam < 64 ? altitude(beam) : 0.0; });
+  check_error(sensor.json(), "beam_altitude_angles: only 64 of 128 angles are different");
+  sensor.altitudes = list([&](int beam) { return altitude(beam) * 0.0174533; });
+  check_error(sensor.json(), "beam_altitude_angles: the angles go from -0.3723");
+}
+
+TEST_CASE("a beam's origin that is no sensor's is refused") {
+  OusterSensor sensor;
+  for (const char* good : {"0", "1", "15.806", "27.67", "100"}) {
+    sensor.beam_offset_mm = good;
+    CHECK(read(sensor.json()).metadata.has_value());
+  }
+  for (const char* bad : {"0.015806", "-15.806", "158.06", "1e999"}) {
+    sensor.beam_offset_mm = bad;
+    CHECK_FALSE(read(sensor.json()).metadata.has_value());
+    if (std::string(bad) == "1e999") continue;  // not JSON
+    check_error(sensor.json(), "lidar_origin_to_beam_origin_mm: expected millimetres, 0 or 1 .. 100, got");
+  }
+}
+
 TEST_CASE("transforms that no sensor has are refused") {
   OusterSensor sensor;
   sensor.transform = "[1,0,0,0, 0,1,0,0, 0,0,-1,0, 0,0,0,1]";  // a mirror
@@ -141,6 +184,8 @@ TEST_CASE("transforms that no sensor has are refused") {
   };
   check_error(beam("[0,0,0,0, 0,0,0,0, 0,0,0,0, 0,0,0,0]"), "beam_to_lidar_transform: expected a shift");
   check_error(beam("[1,0,0,9, 0,1,0,3, 0,0,1,0, 0,0,0,1]"), "beam_to_lidar_transform: expected a shift");
+  check_error(beam("[1,0,0,0.016, 0,1,0,0, 0,0,1,0, 0,0,0,1]"),
+              "beam_to_lidar_transform: expected a shift of 0 or 1 .. 100 mm along x, got 0.016");
   CHECK(read(beam("[1,0,0,9, 0,1,0,0, 0,0,1,2, 0,0,0,1]")).metadata.has_value());
 }
 
@@ -157,6 +202,22 @@ TEST_CASE("firmware 3.2: the header's kind is a key; a frame that begins elsewhe
   CHECK(read(json(R"("lidar_frame_azimuth_offset": 0)")).metadata.has_value());
   check_error(json(R"("lidar_frame_azimuth_offset": 90000)"),
               "lidar_frame_azimuth_offset: only 0 can be read");
+}
+
+TEST_CASE("all real metadata is read, but what is garbled") {
+  const auto data = recordings();
+  if (!data) return;
+  int files = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(*data)) {
+    const std::string path = entry.path();
+    if (entry.path().extension() != ".json" || path.find("garbled") != std::string::npos) continue;
+    std::vector<std::string> warnings;
+    const auto read = ingest::read_ouster_metadata(path, warnings);
+    INFO(path << ": " << (read ? "" : read.error()));
+    CHECK(read.has_value());
+    ++files;
+  }
+  CHECK(files >= 8);
 }
 
 TEST_CASE("real metadata: garbled angles are refused, those of firmware 3.1 and 3.2 are read") {

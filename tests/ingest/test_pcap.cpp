@@ -330,7 +330,7 @@ TEST_CASE("what a sweep can have is held against max_returns") {
   sensor.azimuths = "[";
   for (int beam = 0; beam < 128; ++beam) {
     sensor.altitudes += (beam == 0 ? "" : ", ") + std::to_string(20.0 - 0.3 * beam);
-    sensor.azimuths += beam == 0 ? "0" : ", 0";
+    sensor.azimuths += beam == 0 ? "3" : beam % 2 == 0 ? ", 3" : ", -3";
   }
   sensor.altitudes += "]";
   sensor.azimuths += "]";
