@@ -234,8 +234,9 @@ std::uint64_t IngestNode::judge(std::int64_t now_ns) {
     const auto overruns = reader_.overruns();
     sensor_watch_.update(reader_.counters(), overruns.slow + overruns.waiting, now_ns);
     sensor_watch_.describe(words);
-  } else if (const SourceCounters& c = reader_.counters(); c.sweeps == 0 && c.dropped_sweeps > 0) {
-    tell_dropped(100 * c.best_dropped_fraction, lidar_, words);
+  } else if (const SourceCounters& c = reader_.counters(); c.sweeps == 0) {
+    if (c.dropped_sweeps > 0) tell_dropped(100 * c.best_dropped_fraction, lidar_, words);
+    if (c.misfit_sweeps > 0) tell_misfit(lidar_, words);
   }
   ground_.describe(words);
   const std::uint64_t faults = sensor_watch_.faults() | std::uint64_t{odometry_.faults(now_ns)} << 32;

@@ -78,9 +78,13 @@ void tell_dropped(double percent, const services::LidarConfig& lidar, services::
             lidar.name.c_str(), lidar.min_sweep_fraction);
 }
 
+void tell_misfit(const services::LidarConfig& lidar, services::Words& words) {
+  words.add("no map: its sweeps are of another mode or pace than lidars.%s.source says", lidar.name.c_str());
+}
+
 std::vector<std::string> explain(const SourceCounters& counters, const services::LidarConfig& lidar) {
   std::vector<std::string> lines;
-  const std::uint64_t sweeps = counters.sweeps + counters.dropped_sweeps;
+  const std::uint64_t sweeps = counters.sweeps + counters.dropped_sweeps + counters.misfit_sweeps;
   if (sweeps == 0) {
     lines.push_back(
         fmt::format("no sweep came: {} packets, of which {} are not of such a sensor, {} of another "
@@ -94,6 +98,11 @@ std::vector<std::string> explain(const SourceCounters& counters, const services:
                     "lidars.{}.min_sweep_fraction is {}",
                     counters.dropped_sweeps, sweeps, 100 * counters.best_dropped_fraction, lidar.name,
                     lidar.min_sweep_fraction));
+  }
+  if (counters.misfit_sweeps > 0) {
+    lines.push_back(
+        fmt::format("{} of {} sweeps dropped: they are of another mode or pace than lidars.{}.source says",
+                    counters.misfit_sweeps, sweeps, lidar.name));
   }
   if (counters.overflow_returns > 0) {
     lines.push_back(fmt::format("{} returns left out: lidars.{}.max_returns is {}", counters.overflow_returns,

@@ -20,6 +20,9 @@ std::vector<std::string> explain(const SweepLosses& losses, const OdometryIntake
 /// For Health: all sweeps are dropped, since they have `percent` of their columns.
 void tell_dropped(double percent, const services::LidarConfig& lidar, services::Words& words);
 
+/// For Health: all sweeps are of another mode or pace than the source says.
+void tell_misfit(const services::LidarConfig& lidar, services::Words& words);
+
 /// A line for each reason for which a source that is at its end gave fewer sweeps or returns than came to it,
 /// and the key that decides.
 std::vector<std::string> explain(const SourceCounters& counters, const services::LidarConfig& lidar);

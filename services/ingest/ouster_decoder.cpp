@@ -240,7 +240,7 @@ bool OusterDecoder::close(Sweep& out) {
   if (highest_ >= short_turn_) short_turn_ = 0;
   if (short_turn_ > 0) {
     builder_.discard();
-    ++state_.counters.dropped_sweeps;
+    ++state_.counters.misfit_sweeps;
     return false;
   }
   return builder_.close(static_cast<double>(received_) / expected, received_ >= expected, out);

@@ -20,6 +20,8 @@ constexpr int kWallPackets = 8;  // one may differ that waited while the clock w
 std::string why_no_sweep(const SourceCounters& c) {
   const std::pair<std::uint64_t, const char*> reasons[] = {
       {c.dropped_sweeps, "sweeps of less than min_sweep_fraction of their columns"},
+      {c.misfit_sweeps, "sweeps of another mode or pace than the source says"},
+      {c.withheld_sweeps, "sweeps of a sender that is on trial"},
       {c.foreign_packets, "packets that are not of such a sensor"},
       {c.second_sensor_packets, "packets of another such sensor"},
       {c.slow_packets, "packets of a sender that is too slow"},
@@ -141,7 +143,7 @@ bool PacketSweepSource::withhold(Sweep& out) {
   SourceCounters& counters = state_->counters;
   --counters.sweeps;
   if (!out.complete) --counters.incomplete_sweeps;
-  ++counters.dropped_sweeps;
+  ++counters.withheld_sweeps;
   out.clear();
   return false;
 }

@@ -100,6 +100,9 @@ void SensorWatch::judge_shares(const SourceCounters& before, const SourceCounter
     see(SensorFault::dropped,
         100 * (now.dropped_fractions - before.dropped_fractions) / static_cast<double>(dropped));
   }
+  const std::uint64_t misfits = more(&SourceCounters::misfit_sweeps);
+  if (misfits > 1 && more(&SourceCounters::sweeps) == 0)
+    see(SensorFault::misfit, static_cast<double>(misfits));
   const std::uint64_t packets = more(&SourceCounters::packets);
   const std::uint64_t columns = more(&SourceCounters::columns);
   const auto judge_share = [this](SensorFault fault, double share, double most) {
@@ -155,6 +158,8 @@ void SensorWatch::tell(SensorFault fault, double value, services::Words& words) 
       return words.add("%.0f %% of columns invalid", value);
     case SensorFault::dropped:
       return tell_dropped(value, lidar_, words);
+    case SensorFault::misfit:
+      return tell_misfit(lidar_, words);
     case SensorFault::overrun:
       return words.add("%.0f sweeps/s dropped, waiting to be mapped", value);
     case SensorFault::count:

@@ -16,6 +16,7 @@ namespace gvom::ingest {
 enum class SensorFault {
   silence,        ///< No packet for half a second.
   dropped,        ///< Every sweep has too few of its columns.
+  misfit,         ///< Every sweep is of another mode or pace.
   flood,          ///< More packets than one such sensor sends.
   slow,           ///< The only sender has not a sensor's rate.
   second_sensor,  ///< Packets of this sensor's kind, of another sensor.

@@ -20,11 +20,12 @@ using KindText = std::array<char, 64>;
 
 /// Why input was not used. Everything that is dropped is in exactly one of these.
 struct SourceCounters {
-  std::uint64_t packets = 0;            ///< Packets handed to the decoder.
-  std::uint64_t sweeps = 0;             ///< Sweeps handed out (complete or not).
-  std::uint64_t incomplete_sweeps = 0;  ///< ... of these, with columns missing.
-  /// Not handed out: under `min_sweep_fraction`, or live of a sender that has not had a sensor's rate yet.
-  std::uint64_t dropped_sweeps = 0;
+  std::uint64_t packets = 0;                ///< Packets handed to the decoder.
+  std::uint64_t sweeps = 0;                 ///< Sweeps handed out (complete or not).
+  std::uint64_t incomplete_sweeps = 0;      ///< ... of these, with columns missing.
+  std::uint64_t dropped_sweeps = 0;         ///< Not handed out: under `min_sweep_fraction`.
+  std::uint64_t misfit_sweeps = 0;          ///< Not handed out: of another mode or pace than the source says.
+  std::uint64_t withheld_sweeps = 0;        ///< Live, of a sender that has not had a sensor's rate yet.
   std::uint64_t foreign_packets = 0;        ///< Another size, another protocol, a frame of another time.
   std::uint64_t second_sensor_packets = 0;  ///< Of this sensor's kind, but of another sensor.
   std::uint64_t slow_packets = 0;           ///< Live, of a sender that has not had a sensor's rate.

@@ -24,6 +24,13 @@ std::string words_of(const Sweep& sweep) {
                      seconds(span.last_ns), 100 * sweep.columns_seen_fraction);
 }
 
+/// Why there is none: what the source itself noticed, then what it counted.
+std::string why_no_sweep(const Source& source, const services::LidarConfig& lidar) {
+  std::string why;
+  for (const std::string& warning : source.warnings()) why += warning + "; ";
+  return why + explain(source.counters(), lidar).front();
+}
+
 /// Decodes the first sweeps; the fullest is left in `fullest`. How many there were.
 tl::expected<int, std::string> decode_some(Source& source, Sweep& fullest) {
   Sweep sweep;
@@ -54,7 +61,7 @@ tl::expected<CheckedSource, SourceError> check_source(const services::LidarConfi
     Sweep sweep;
     const auto sweeps = decode_some(**source, sweep);
     if (!sweeps) return tl::unexpected(SourceError(sweeps.error()));
-    if (*sweeps == 0) return tl::unexpected(SourceError(explain((*source)->counters(), lidar).front()));
+    if (*sweeps == 0) return tl::unexpected(SourceError(why_no_sweep(**source, lidar)));
     if (sweep.columns_seen_fraction < lidar.min_sweep_fraction) {
       return tl::unexpected(SourceError(fmt::format(
           "none of the first {} sweeps would be mapped: they have {:.0f} % of their columns at most, "

@@ -292,7 +292,7 @@ bool VelodyneDecoder::close(Sweep& out) {
   if (whole_ && !complete) state_.counters.missing_columns += static_cast<std::uint64_t>(missing);
   if (pace_.is_off()) {
     builder_.discard();
-    ++state_.counters.dropped_sweeps;
+    ++state_.counters.misfit_sweeps;
     forget();
     return false;
   }

@@ -177,6 +177,7 @@ TEST_CASE("a sender without a sensor's rate gives no sweeps, and is counted") {
   const Outcome outcome = play(arrivals);
   CHECK(outcome.counters.sweeps == 0);
   CHECK(outcome.partial == 0);
+  CHECK(outcome.counters.dropped_sweeps == 0);
   CHECK(outcome.counters.slow_packets == 17);  // all but those of the second on trial
   CHECK(std::string(ingest::to_text(outcome.counters.slow_address).data()) == "10.0.0.2");
 }

@@ -224,3 +224,12 @@ TEST_CASE("sweeps that are all dropped for want of columns are told, with the ke
   });
   CHECK(other.says().empty());
 }
+
+TEST_CASE("sweeps of another mode or pace, and those of a sender on trial, are not said to lack columns") {
+  Sensor sensor;
+  sensor.live(20, [](SourceCounters& counters) { ++counters.misfit_sweeps; });
+  CHECK(sensor.says() == "no map: its sweeps are of another mode or pace than lidars.front.source says");
+  Sensor trial;
+  trial.live(20, [](SourceCounters& counters) { ++counters.withheld_sweeps; });
+  CHECK(trial.says().empty());
+}

@@ -405,7 +405,7 @@ TEST_CASE("a model that was taken on trust is not, where packets come at another
   // VLP-16 packets, each 1327 us, as those of an HDL-32, each 553 us; and the other way round.
   const auto slow = play(turn(3), "HDL-32&model_byte=0x22");
   CHECK(slow.sweeps.empty());
-  CHECK(slow.counters.dropped_sweeps == 4);  // and what is behind the third turn
+  CHECK(slow.counters.misfit_sweeps == 4);  // and what is behind the third turn
   REQUIRE(!slow.warnings.empty());
   CHECK(slow.warnings[0].find(
             "a packet comes each 1327 us, one of model HDL-32 in this return mode each 553") == 0);

@@ -26,6 +26,7 @@ nlohmann::json source_counts(const ingest::SourceCounters& c) {
           {"sweeps", c.sweeps},
           {"incomplete_sweeps", c.incomplete_sweeps},
           {"dropped_sweeps", c.dropped_sweeps},
+          {"misfit_sweeps", c.misfit_sweeps},
           {"foreign_packets", c.foreign_packets},
           {"second_sensor_packets", c.second_sensor_packets},
           {"truncated_packets", c.truncated_packets},

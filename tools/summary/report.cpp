@@ -28,6 +28,8 @@ constexpr Reason kSweepReasons[] = {
     {"drop_odometry_gap", "in a gap of the odometry"},
     {"drop_odometry_jump", "across a jump of the odometry"},
     {"drop_sweep_incomplete", "incomplete"},
+    {"drop_sweep_misfit", "of another mode or pace"},
+    {"drop_sweep_withheld", "of a sender on trial"},
     {"drop_overrun", "overrun"},
     {"drop_no_chunk", "no free chunk"},
 };
