@@ -12,7 +12,15 @@ constexpr double kMostOff = 1.4;  // modes differ by factors of 2
 
 struct Columns {
   OusterColumn first, last;
+  bool any_in_window = false;
 };
+
+bool is_in_window(const OusterMetadata& metadata, int column) {
+  const int first = metadata.window_first;
+  const int last = metadata.window_last;
+  if (first <= last) return column >= first && column <= last;
+  return column < metadata.columns_per_frame && (column >= first || column <= last);
+}
 
 /// The packet's first and last valid column.
 std::optional<Columns> valid_columns(const OusterMetadata& metadata, const std::uint8_t* packet) {
@@ -22,8 +30,9 @@ std::optional<Columns> valid_columns(const OusterMetadata& metadata, const std::
     const OusterColumn column = read_ouster_column(metadata.layout, bytes, metadata.beams());
     bytes += metadata.layout.column_size(metadata.beams());
     if (!column.valid) continue;
-    if (!found) found = Columns{column, column};
+    if (!found) found = Columns{column, column, false};
     found->last = column;
+    found->any_in_window = found->any_in_window || is_in_window(metadata, column.measurement_id);
   }
   return found;
 }
@@ -37,10 +46,15 @@ bool differs(double a, double b) {
 bool is_of_other_mode(const OusterMetadata& metadata, const std::uint8_t* packet, KindText& why) {
   const auto found = valid_columns(metadata, packet);
   if (!found) return false;
-  const auto& [first, last] = *found;
+  const auto& [first, last, any_in_window] = *found;
   const int turn = metadata.columns_per_frame;
   if (std::min(first.measurement_id, last.measurement_id) >= turn) {
     std::snprintf(why.data(), why.size(), "column %d, the metadata has %d a turn", last.measurement_id, turn);
+    return true;
+  }
+  if (!any_in_window) {
+    std::snprintf(why.data(), why.size(), "column %d, the metadata's window is %d .. %d",
+                  first.measurement_id, metadata.window_first, metadata.window_last);
     return true;
   }
   const int columns = last.measurement_id - first.measurement_id;

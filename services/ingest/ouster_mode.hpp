@@ -9,7 +9,8 @@
 namespace gvom::ingest {
 
 /// True if the packet's own columns prove that a turn has another number of columns than the metadata says,
-/// or takes another time; `why` says how. Half the columns on a whole turn would lie at wrong azimuths.
+/// or takes another time, or that they are sent outside of its window; `why` says how. Half the columns on a
+/// whole turn would lie at wrong azimuths.
 bool is_of_other_mode(const OusterMetadata& metadata, const std::uint8_t* packet, KindText& why);
 
 }  // namespace gvom::ingest

@@ -156,6 +156,18 @@ TEST_CASE("columns that are not valid or not in the window are counted") {
   CHECK(stream.counters().invalid_columns == 3);
 }
 
+TEST_CASE("whole turns and metadata of a slice: what is outside is not used, and told") {
+  OusterSensor sensor;
+  sensor.window = "[0, 9]";
+  Stream stream(sensor);
+  stream.whole_frame(1).whole_frame(2).play();
+  CHECK(stream.counters().foreign_packets ==
+        2);  // of columns 12 .. 15; at the edge, columns are invalid ones
+  CHECK(stream.counters().invalid_columns == 4);
+  REQUIRE(!stream.warnings().empty());
+  CHECK(stream.warnings()[0].find("column 12, the metadata's window is 0 .. 9") != std::string::npos);
+}
+
 TEST_CASE("another size, another sender, another protocol, a far frame: foreign, and the sweep is whole") {
   Stream stream;
   stream.packet(1, 0).packet(1, 4);
@@ -338,6 +350,16 @@ TEST_CASE(
         std::string::npos);
   timed.column_ns = 100'000'000 / 16;
   CHECK(Stream(timed).whole_frame(1).play().size() == 1);
+
+  OusterSensor slice = with_serial(5);
+  slice.window = "[0, 7]";
+  Stream outside(with_serial(5));
+  outside.packet(1, 8).packet(1, 12);
+  CHECK(outside.refusal(slice).find("column 8, the metadata's window is 0 .. 7") != std::string::npos);
+  slice.window = "[12, 3]";
+  Stream wraps(with_serial(5));
+  wraps.packet(1, 4).packet(1, 8);
+  CHECK(wraps.refusal(slice).find("column 4, the metadata's window is 12 .. 3") != std::string::npos);
 
   Stream beyond(with_serial(5));
   beyond.packet(1, 16).packet(1, 20);
