@@ -18,9 +18,10 @@ inline constexpr std::size_t kMaxFloats = 6;
 
 struct FloatsJudgement {
   enum class Kind {
-    unknown,  ///< Too few values that are not zero.
-    found,    ///< `floats` a point, 2 to 8, beyond doubt.
-    none,     ///< Enough values, and no such number fits them.
+    unknown,       ///< Too few values that are not zero.
+    found,         ///< `floats` a point, 2 to 8, beyond doubt.
+    three_or_six,  ///< Pairs of points of three floats look much like points of six.
+    none,          ///< Enough values, and no such number fits them.
   };
   Kind kind = Kind::unknown;
   std::size_t floats = 0;
@@ -35,5 +36,16 @@ FloatsJudgement judge_floats(Bytes file);
 /// An error if `file`, taken as points of `floats` floats, is not what a lidar writes: its values say another
 /// number, or coordinates are not metres.
 tl::expected<void, std::string> check_floats(Bytes file, std::size_t floats);
+
+/// Beyond the range of any lidar of a vehicle (300 m); half of the hits of the scans that were looked at are
+/// beyond 6 to 10 m, which is 600 to 1000 if centimetres are taken for metres.
+inline constexpr double kFarHitM = 500;
+
+struct Hits {
+  std::size_t count = 0;  ///< Points whose x, y, z are numbers and not all zero.
+  std::size_t far = 0;    ///< Those of them beyond kFarHitM. If most are, they are not in metres.
+};
+
+Hits count_hits(Bytes file, std::size_t floats);
 
 }  // namespace gvom::ingest

@@ -69,6 +69,8 @@ tl::expected<void, std::string> ScanSource::find_floats() {
     const FloatsJudgement judgement = judge_floats({file_.data(), file_.size()});
     empty = empty && judgement.empty;
     if (judgement.kind == FloatsJudgement::Kind::unknown) continue;
+    if (judgement.kind == FloatsJudgement::Kind::three_or_six)
+      return tl::unexpected(scans_[i].path + ": looks like 3 or 6 floats a point" + kSayFloats);
     const bool found = judgement.kind == FloatsJudgement::Kind::found;
     if (!found || judgement.floats < kMinFloats || judgement.floats > kMaxFloats) {
       return tl::unexpected(scans_[i].path + ": " +
@@ -160,13 +162,28 @@ tl::expected<void, std::string> ScanSource::judge_file(const ScanFile& scan) {
   return {};
 }
 
+/// Far hits are refused also where the number of floats was asked for: it says nothing of units.
+tl::expected<void, std::string> ScanSource::judge_hits(const ScanFile& scan) {
+  const Hits hits = count_hits({file_.data(), file_.size()}, floats_);
+  if (2 * hits.far > hits.count) {
+    return tl::unexpected(std::to_string(hits.far) + " of its " + std::to_string(hits.count) +
+                          " hits are beyond 500 m: not metres?");
+  }
+  if (hits.count == 0 && !told_no_hits_) {
+    told_no_hits_ = true;
+    state_.warnings.push_back(scan.path + ": no hit in the whole scan: empty, or all zero or not a number");
+  }
+  return {};
+}
+
 tl::expected<void, std::string> ScanSource::read_bin(const ScanFile& scan, Sweep& out) {
   const std::size_t bytes = floats_ * sizeof(float);
   if (file_.size() % bytes != 0) {
     return tl::unexpected("its size of " + std::to_string(file_.size()) + " bytes is not a multiple of " +
                           std::to_string(bytes));
   }
-  const auto judged = judge_file(scan);
+  auto judged = judge_file(scan);
+  if (judged) judged = judge_hits(scan);
   if (!judged) return judged;
   out.times_ns.push_back(scan.stamp_ns);
   out.stamp_ns = scan.stamp_ns;

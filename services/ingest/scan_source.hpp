@@ -39,6 +39,7 @@ class ScanSource final : public Source {
              const Format& format);
   tl::expected<void, std::string> find_floats();
   tl::expected<void, std::string> judge_file(const ScanFile& scan);
+  tl::expected<void, std::string> judge_hits(const ScanFile& scan);
   tl::expected<void, std::string> read_file(const std::string& path);
   tl::expected<void, std::string> read_bin(const ScanFile& scan, Sweep& out);
   tl::expected<void, std::string> read_pcd(const ScanFile& scan, Sweep& out);
@@ -55,6 +56,7 @@ class ScanSource final : public Source {
   std::size_t floats_ = kMinFloats;  // a point of a .bin
   bool floats_asked_;
   bool told_floats_ = false;
+  bool told_no_hits_ = false;
   bool told_more_points_ = false;
   std::optional<std::int64_t> newest_ns_;  // stamp of the scans of a .pcd so far
   PointTimes times_;
