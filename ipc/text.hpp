@@ -12,7 +12,7 @@ namespace gvom::ipc {
 template <std::size_t N>
 void set_text(char (&field)[N], std::string_view text) {
   std::memset(field, 0, N);
-  std::memcpy(field, text.data(), std::min(text.size(), N - 1));
+  std::copy_n(text.begin(), std::min(text.size(), N - 1), field);
 }
 
 template <std::size_t N>
