@@ -148,7 +148,7 @@ FloatsJudgement judge_floats(Bytes file) {
   for (std::size_t period = 2; period <= kMaxPeriod; ++period) bits[period] = bits_of(sample, period);
   const double best = *std::max_element(bits.begin(), bits.end());
   std::size_t floats = 2;
-  while (bits[floats] < kAsMuch * best) ++floats;
+  while (floats < kMaxPeriod && bits[floats] < kAsMuch * best) ++floats;  // noise may be below 0
   judgement.kind = best < kLeastBits ? FloatsJudgement::Kind::none : FloatsJudgement::Kind::found;
   for (std::size_t other = 2; other <= kMaxPeriod; ++other) {
     const bool related = other % floats == 0 || floats % other == 0 || (other % 2 == 0 && floats % 2 == 0);

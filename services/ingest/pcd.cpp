@@ -106,6 +106,9 @@ tl::expected<void, std::string> check_fields(Header& header) {
       return tl::unexpected(std::string("points of more than 4096 bytes"));
   }
   if (header.point_bytes == 0) return tl::unexpected(std::string("points of no bytes"));
+  auto& fields = header.cloud.fields;  // one with COUNT 0 has no value to read
+  fields.erase(std::remove_if(fields.begin(), fields.end(), [](const PcdField& f) { return f.count == 0; }),
+               fields.end());
   for (PcdField& field : header.cloud.fields) field.stride = header.point_bytes;
   return {};
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/mapper.hpp"
+#include "ipc/brick_map.hpp"
 #include "ipc/layers.hpp"
 #include "ipc/text.hpp"
 #include "ipc/topic.hpp"
