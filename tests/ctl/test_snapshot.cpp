@@ -4,7 +4,6 @@
 
 #include "tests/ctl/vehicle_at.hpp"
 #include "tools/ctl/render.hpp"
-#include "tools/ctl/unit_state.hpp"
 
 using namespace gvom;
 using namespace gvom::test;
@@ -242,81 +241,6 @@ TEST_CASE("an odometry that begins anew has a rate of its own") {
   CHECK(!observed.odometry()->rate_hz);
 }
 
-TEST_CASE("the table shows what is wrong first, and every figure") {
-  VehicleAt vehicle;
-  const std::string well = to_table(vehicle.snapshot());
-  CHECK_THAT(well, Contains("two_lidars: all is well\n"));
-  CHECK_THAT(
-      well,
-      Contains("gvom-fusion             ok           10.0/s     0.5 s    0.08 s         2     50 MB\n"));
-  CHECK_THAT(well, Contains("    dropped: 95 overrun (+10/s)\n") && !Contains("no_chunk"));
-  CHECK_THAT(well,
-             Contains("layers: 0.08 s old, published 0.05 s ago, 8 maps in the window, missing: no lidar\n"));
-  CHECK_THAT(well, Contains("odometry: 0.00 s old, 20.0/s\n"));
-  CHECK_THAT(well, Contains("2000                            10        3             2\n"));
-  vehicle.expected.processes.emplace_back("gvom-ingest-left");
-  CHECK_THAT(to_table(vehicle.snapshot()),
-             Contains("two_lidars: 1 problem\n  ! gvom-ingest-left is missing: nothing was heard of it\n"));
-}
-
-TEST_CASE("JSON has every figure, and null for what is not known") {
-  const auto json = nlohmann::json::parse(to_json(VehicleAt().snapshot()));
-  CHECK(json["vehicle"] == "two_lidars");
-  CHECK(json["ok"] == true);
-  CHECK(json["broker"] == "up");
-  const auto& fusion = json["processes"][2];
-  CHECK(fusion["name"] == "gvom-fusion");
-  CHECK(fusion["state"] == "ok");
-  CHECK(fusion["restarts"] == 2);
-  CHECK(fusion["memory_bytes"] == 50'000'000);
-  CHECK(fusion["counters"]["sweeps_in"] == 95);
-  CHECK(fusion["drops"]["overrun"]["count"] == 95);
-  CHECK(fusion["drops"]["overrun"]["per_s"].get<double>() == Approx(10.0));
-  CHECK(json["processes"][0]["rate_hz"].is_null());
-  CHECK(json["layers"]["missing"].empty());
-  CHECK(json["layers"]["lidars"]["rear"]["maps_in_window"] == 4);
-  CHECK(json["pools"][1]["min_free"] == 2);
-  VehicleAt nothing_heard;
-  nothing_heard.observed = {};
-  const auto empty = nlohmann::json::parse(to_json(nothing_heard.snapshot()));
-  CHECK(empty["ok"] == false);
-  CHECK(empty["layers"].is_null());
-  CHECK(empty["odometry"].is_null());
-}
-
-namespace {
-
-ipc::Health ground_of(const char* process, ipc::GroundVerdict verdict, float height_m, float slope_x) {
-  ipc::Health health = health_of(process, HealthState::ok, kNow_ns);
-  health.ground = {static_cast<std::uint32_t>(verdict), 20, 0, height_m, slope_x, 0, 1, 0};
-  return health;
-}
-
-}  // namespace
-
-TEST_CASE("where a lidar sees the ground is told, also that it was not judged") {
-  VehicleAt vehicle;
-  vehicle.observed.add(ground_of("gvom-ingest-front", ipc::GroundVerdict::well, -0.05f, 0.01f));
-  ipc::Health rear = health_of("gvom-ingest-rear", HealthState::ok, kNow_ns);
-  rear.ground.verdict = static_cast<std::uint32_t>(ipc::GroundVerdict::not_judged);
-  vehicle.observed.add(rear);
-  const ctl::Snapshot snapshot = vehicle.snapshot();
-  CHECK(snapshot.problems.empty());
-  CHECK_THAT(
-      to_table(snapshot),
-      Contains("    ground: well: 0.05 m below where it should be, tilted by 0.6 degrees, in 20 sweeps "
-               "on the way\n") &&
-          Contains("    ground: not judged: too little of it is seen"));
-  const auto json = nlohmann::json::parse(to_json(snapshot));
-  CHECK(json["processes"][3]["ground"]["verdict"] == "well");
-  CHECK(json["processes"][3]["ground"]["height_m"] == Approx(-0.05));
-  CHECK(json["processes"][4]["ground"]["verdict"] == "not judged");
-  CHECK(json["processes"][4]["ground"]["height_m"].is_null());
-  CHECK(json["processes"][2]["ground"].is_null());
-  CHECK_THAT(to_prometheus(snapshot), Contains(R"(gvom_ground_judged{process="gvom-ingest-rear"} 0)") &&
-                                          Contains(R"(gvom_ground_wrong{process="gvom-ingest-front"} 0)"));
-}
-
 TEST_CASE("two lidars that see the ground at different heights or angles are a problem") {
   VehicleAt vehicle;
   const auto problems = [&](float height_m, float slope_x) {
@@ -332,6 +256,7 @@ TEST_CASE("two lidars that see the ground at different heights or angles are a p
         std::vector<std::string>{
             "front and rear see the ground 0.0 m and 5 degrees apart: is a T_base_sensor wrong?"});
 }
+
 TEST_CASE("a file that does not load is the first problem, and what runs is looked at all the same") {
   VehicleAt vehicle;
   vehicle.expected = {"", {"gvom-fusion"}, kVersion};
@@ -365,26 +290,4 @@ TEST_CASE("of a process that is not there systemd says why") {
       "gvom-ingest@left.service is not enabled: systemctl enable --now gvom-ingest@left.service";
   CHECK(process(vehicle.snapshot(), "gvom-ingest-left").reason ==
         "nothing was heard of it; " + vehicle.why_stopped);
-}
-
-TEST_CASE("how a unit is in one line, and what to do") {
-  const auto words = [](ctl::UnitState state) {
-    state.unit = "u.service";
-    return ctl::why_not_running(state);
-  };
-  CHECK(words({"", "not-found", "", "inactive", "dead", "success", 0, ""}) == "there is no unit u.service");
-  CHECK(words({"", "loaded", "disabled", "inactive", "dead", "success", 0, ""}) ==
-        "u.service is not enabled: systemctl enable --now u.service");
-  CHECK(words({"", "loaded", "enabled", "inactive", "dead", "success", 0, ""}) ==
-        "u.service is stopped: systemctl start u.service");
-  CHECK(words({"", "loaded", "enabled", "failed", "failed", "exit-code", 78, "v.yaml:3: no"}) ==
-        "u.service failed with exit code 78: v.yaml:3: no; journalctl --unit u.service");
-  CHECK(words({"", "loaded", "enabled", "activating", "auto-restart", "exit-code", 69, "no room"}) ==
-        "u.service is started again and again, it ended with exit code 69: no room; journalctl --unit "
-        "u.service");
-  CHECK(words({"", "loaded", "enabled", "activating", "start", "success", 0, "waiting"}) ==
-        "u.service is starting: waiting");
-  CHECK(words({"", "loaded", "enabled", "activating", "auto-restart", "watchdog", 9, ""}) ==
-        "u.service is started again and again, it ended by watchdog; journalctl --unit u.service");
-  CHECK(words({"", "loaded", "enabled", "active", "running", "success", 0, "10/s"}).empty());
 }

@@ -59,4 +59,11 @@ inline const ctl::ProcessView& process(const ctl::Snapshot& snapshot, const std:
   throw std::out_of_range(name);
 }
 
+/// The Health of an ingest that judges the ground, in 20 sweeps on the way.
+inline ipc::Health ground_of(const char* process, ipc::GroundVerdict verdict, float height_m, float slope_x) {
+  ipc::Health health = health_of(process, ipc::HealthState::ok, kNow_ns);
+  health.ground = {static_cast<std::uint32_t>(verdict), 20, 0, height_m, slope_x, 0, 1, 0};
+  return health;
+}
+
 }  // namespace gvom::test
