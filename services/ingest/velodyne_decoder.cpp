@@ -11,24 +11,14 @@
 namespace gvom::ingest {
 namespace {
 
-constexpr int kTurn = 36000;     // 1/100 degree
-constexpr int kMaxJitter = 100;  // the azimuth of a turning sensor goes back no further than this
-constexpr double kMaxTurnsPerSecond = 25.0;
-constexpr double kTurnsPerSecond = 10;            // as it leaves the factory
+constexpr int kMaxJitter = 100;         // the azimuth of a turning sensor goes back no further than this
+constexpr double kTurnsPerSecond = 10;  // as it leaves the factory
 constexpr std::int64_t kMaxTurnNs = 500'000'000;  // the slowest turn is 0.2 s
 constexpr std::uint32_t kHourUs = 3'600'000'000u;
 constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180.0;
 
 std::int64_t to_ns(double microseconds) {
   return std::llround(microseconds * 1e3);
-}
-
-int azimuth_of(const std::uint8_t* block) {
-  return load_le<std::uint16_t>(block + 2);
-}
-
-bool is_block(const std::uint8_t* block, int bank) {
-  return velodyne_bank(block) == bank && azimuth_of(block) < kTurn;
 }
 
 /// Dual return mode sends the most: a sequence is two blocks of each bank.
@@ -44,6 +34,7 @@ VelodyneDecoder::VelodyneDecoder(VelodyneModel model, const VelodyneMarks& marks
                                  const SourceOptions& options, SourceState& state)
     : model_(std::move(model)),
       marks_(marks),
+      shots_(model_),
       max_packets_(static_cast<std::size_t>(most_packets(model_) * kMaxTurnNs * 1e-9 * 1.1)),
       state_(state),
       builder_(options, max_packets_ * kVelodyneBlocks, state.counters) {
@@ -113,8 +104,8 @@ void VelodyneDecoder::reset() {
 
 void VelodyneDecoder::forget() {
   open_ = whole_ = false;
-  gap_sum_ = 0;
-  gap_count_ = received_ = 0;
+  shots_.begin_sweep();
+  received_ = 0;
   packet_times_ns_.clear();
 }
 
@@ -155,10 +146,11 @@ VelodyneDecoder::Place VelodyneDecoder::place(std::int64_t time_ns) {
 /// With `may_cut`, the sweep is closed where the azimuth passes through 0, at most once in a packet.
 bool VelodyneDecoder::use(const Packet& packet, std::int64_t time_ns, bool may_cut, Sweep& out) {
   bool closed = false;
-  const int count = read_shots(packet.data, time_ns);
-  if (count == 0) return false;
-  for (int i = 0; i < count; ++i) {
-    const Shot& shot = shots_[static_cast<std::size_t>(i)];
+  const auto before = open_ ? std::optional(VelodyneBefore{azimuth_, newest_ns_}) : std::nullopt;
+  state_.counters.invalid_columns +=
+      static_cast<std::uint64_t>(shots_.read(packet.data, time_ns, dual_, before));
+  if (shots_.begin() == shots_.end()) return false;
+  for (const VelodyneShot& shot : shots_) {
     if (may_cut && open_ && shot.azimuth + kMaxJitter < azimuth_) {
       closed = close(out);
       whole_ = true;
@@ -180,66 +172,8 @@ void VelodyneDecoder::begin(std::int64_t time_ns) {
   start_ns_ = newest_ns_ = time_ns;
 }
 
-/// Blocks behind the last whole sequence are padding.
-int VelodyneDecoder::blocks_used() const {
-  const int sequence = model_.banks * (dual_ ? 2 : 1);
-  return kVelodyneBlocks / sequence * sequence;
-}
-
-int VelodyneDecoder::read_shots(const std::uint8_t* packet, std::int64_t time_ns) {
-  const int step = dual_ ? 2 : 1;
-  const bool banks_first = model_.banks == 2;  // HDL-64E: upper, lower, upper again, lower again
-  int count = 0;
-  for (int i = 0; i < blocks_used(); i += step) {
-    const int bank = i / step % model_.banks;
-    const int at = banks_first ? i - bank * (step - 1) : i;
-    const std::uint8_t* block = packet + static_cast<std::size_t>(at) * kVelodyneBlockSize;
-    const std::size_t apart = static_cast<std::size_t>(banks_first ? 2 : 1) * kVelodyneBlockSize;
-    const std::uint8_t* second = dual_ ? block + apart : nullptr;
-    if (!is_block(block, bank) || (dual_ && !is_block(second, bank))) {
-      state_.counters.invalid_columns += static_cast<std::uint64_t>(step);
-      continue;
-    }
-    const int sequence = i / (step * model_.banks);
-    shots_[static_cast<std::size_t>(count++)] = {
-        block, second, time_ns + to_ns(sequence * model_.sequence_us), bank, sequence, azimuth_of(block), 0};
-  }
-  fill_gaps(count, time_ns);
-  return count;
-}
-
-/// The azimuth turns steadily from sequence to sequence; where a gap is not that of a turning sensor (the
-/// field of view ends), the gap before stands in for it.
-void VelodyneDecoder::fill_gaps(int count, std::int64_t time_ns) {
-  if (count > 0 &&
-      blocks_used() == model_.banks * (dual_ ? 2 : 1)) {  // one sequence: back to the packet before
-    const std::int64_t since_ns = time_ns - newest_ns_;
-    const int turned = (shots_[0].azimuth - azimuth_ + kTurn) % kTurn;
-    if (open_ && since_ns > 0)
-      note_gap(
-          static_cast<int>(std::lround(turned * model_.sequence_us * 1e3 / static_cast<double>(since_ns))));
-  }
-  for (int i = 0; i < count; ++i) {
-    Shot& shot = shots_[static_cast<std::size_t>(i)];
-    for (int k = i + 1; k < count; ++k) {
-      const Shot& next = shots_[static_cast<std::size_t>(k)];
-      if (next.bank != shot.bank) continue;
-      note_gap((next.azimuth - shot.azimuth + kTurn) % kTurn / (next.sequence - shot.sequence));
-      break;
-    }
-    shot.gap = last_gap_;
-  }
-}
-
-void VelodyneDecoder::note_gap(int gap) {
-  if (gap > kMaxTurnsPerSecond * kTurn * model_.sequence_us * 1e-6) return;
-  last_gap_ = gap;
-  gap_sum_ += gap;
-  ++gap_count_;
-}
-
 /// The blocks of a sequence share its times.
-void VelodyneDecoder::add(const Shot& shot) {
+void VelodyneDecoder::add(const VelodyneShot& shot) {
   ++received_;
   for (int firing = 0; firing < model_.firings; ++firing) {
     const std::int64_t time_ns = shot.time_ns + to_ns(firing * model_.firing_us);
@@ -252,7 +186,7 @@ void VelodyneDecoder::add(const Shot& shot) {
 }
 
 /// The returns of one firing sequence; of a second block, only those that differ from the first's.
-std::size_t VelodyneDecoder::project(const Shot& shot, const std::uint8_t* block, int firing,
+std::size_t VelodyneDecoder::project(const VelodyneShot& shot, const std::uint8_t* block, int firing,
                                      std::uint32_t time_index) {
   const std::size_t lasers = 32 / static_cast<std::size_t>(model_.firings);
   const std::size_t begin = static_cast<std::size_t>(firing) * lasers;
@@ -282,11 +216,9 @@ std::size_t VelodyneDecoder::project(const Shot& shot, const std::uint8_t* block
 
 /// A turn has as many blocks as the mean azimuth gap says; less than half a packet missing is a whole turn.
 bool VelodyneDecoder::close(Sweep& out) {
-  const double sequences =
-      gap_sum_ > 0 ? static_cast<double>(kTurn) * gap_count_ / static_cast<double>(gap_sum_) : kTurn;
-  const double expected = sequences * model_.banks;
+  const double expected = shots_.sequences_a_turn() * model_.banks;
   const double missing = expected - received_;
-  const double packet = blocks_used() / (dual_ ? 2.0 : 1.0);
+  const double packet = shots_.blocks_used(dual_) / (dual_ ? 2.0 : 1.0);
   const bool complete = missing < packet / 2;
   state_.counters.columns += static_cast<std::uint64_t>(received_);
   if (whole_ && !complete) state_.counters.missing_columns += static_cast<std::uint64_t>(missing);
@@ -302,7 +234,7 @@ bool VelodyneDecoder::close(Sweep& out) {
 }
 
 void VelodyneDecoder::check_pace(std::int64_t time_ns) {
-  const double packet_us = blocks_used() / (model_.banks * (dual_ ? 2 : 1)) * model_.sequence_us;
+  const double packet_us = shots_.blocks_used(dual_) / (model_.banks * (dual_ ? 2 : 1)) * model_.sequence_us;
   pace_.see(time_ns - newest_ns_, packet_us);
   if (!pace_.is_off() || pace_told_) return;
   pace_told_ = true;

@@ -12,6 +12,7 @@
 #include "services/ingest/velodyne_marks.hpp"
 #include "services/ingest/velodyne_model.hpp"
 #include "services/ingest/velodyne_pace.hpp"
+#include "services/ingest/velodyne_shots.hpp"
 
 namespace gvom::ingest {
 
@@ -42,26 +43,12 @@ class VelodyneDecoder final : public Decoder {
   /// Where a packet stands against the open sweep; `jump` means that the sweep ends before it in any case.
   enum class Place { next, within, duplicate, late, jump };
 
-  /// A block of a packet, or two that hold the two returns of the same shots (dual return mode).
-  struct Shot {
-    const std::uint8_t* first;
-    const std::uint8_t* second;  // null unless dual
-    std::int64_t time_ns;
-    int bank;
-    int sequence;  // in the packet
-    int azimuth;   // 1/100 degree
-    int gap;       // azimuth from here to the next sequence, 1/100 degree
-  };
-
-  [[nodiscard]] int blocks_used() const;
-  int read_shots(const std::uint8_t* packet, std::int64_t time_ns);
-  void fill_gaps(int count, std::int64_t time_ns);
-  void note_gap(int gap);
   Place place(std::int64_t time_ns);
   bool use(const Packet& packet, std::int64_t time_ns, bool may_cut, Sweep& out);
   void begin(std::int64_t time_ns);
-  void add(const Shot& shot);
-  std::size_t project(const Shot& shot, const std::uint8_t* block, int firing, std::uint32_t time_index);
+  void add(const VelodyneShot& shot);
+  std::size_t project(const VelodyneShot& shot, const std::uint8_t* block, int firing,
+                      std::uint32_t time_index);
   bool close(Sweep& out);
   void forget();
   void check_hour();
@@ -73,6 +60,7 @@ class VelodyneDecoder final : public Decoder {
 
   const VelodyneModel model_;
   const VelodyneMarks marks_;
+  VelodyneShots shots_;            // of the packet at hand
   const std::size_t max_packets_;  // of a sweep
   SourceState& state_;
   SweepBuilder builder_;
@@ -80,7 +68,6 @@ class VelodyneDecoder final : public Decoder {
   RestartDetector restart_;
   VelodynePace pace_;
   std::vector<LaserTrigonometry> lasers_;
-  std::array<Shot, kVelodyneBlocks> shots_{};
   std::array<Return, 64> scratch_{};           // the returns of one firing
   std::vector<std::int64_t> packet_times_ns_;  // of the open sweep
   bool open_ = false;
@@ -89,11 +76,8 @@ class VelodyneDecoder final : public Decoder {
   std::int64_t newest_ns_ = 0;       // newest packet
   int azimuth_ = 0;                  // newest block
   std::int64_t newest_time_ns_ = 0;  // newest time of the sensor in the sweep
-  int last_gap_ = 0;
-  std::int64_t gap_sum_ = 0;  // of the open sweep's blocks
-  int gap_count_ = 0;
-  int received_ = 0;    // shots in the open sweep
-  bool whole_ = false;  // a sweep was closed before the open one: it was seen from its beginning
+  int received_ = 0;                 // shots in the open sweep
+  bool whole_ = false;               // a sweep was closed before the open one: it was seen from its beginning
   bool hour_checked_ = false;
   std::optional<std::int64_t> packet_time_ns_;
   bool pace_told_ = false;
