@@ -44,7 +44,7 @@ Board* shared_board() {
 }  // namespace
 
 Vehicle Lab::make_vehicle(const std::vector<std::string>& sets) {
-  write_text(folder.path() + "/meta.json", lab_sensor().json());
+  write_text(folder.path() + "/meta.json", looking_down().json());
   Vehicle vehicle{folder.path() + "/lab.yaml", {"front", "rear"}, folder.path(), small_map()};
   std::ofstream file(vehicle.file);
   file << "name: lab\nodometry: {timeout_s: 2}\nfusion: {voxel_rate_hz: 50}\nlidars:\n";

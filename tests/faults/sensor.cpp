@@ -120,12 +120,12 @@ class Faulty {
     return datagram;
   }
   static OusterSensor other_sensor() {
-    OusterSensor sensor = lab_sensor();
+    OusterSensor sensor = looking_down();
     sensor.beams = 4;
     return sensor;
   }
 
-  OusterSensor sensor_ = lab_sensor();
+  OusterSensor sensor_ = looking_down();
   Sender own_;
   Sender other_;
   const std::atomic<std::int64_t>& ahead_ns_;
@@ -184,17 +184,6 @@ double farthest_hit_m(const ipc::BrickMapSample& map) {
 }
 
 }  // namespace
-
-OusterSensor lab_sensor() {
-  OusterSensor sensor;
-  sensor.profile = "RNG19_RFL8_SIG16_NIR16";
-  sensor.altitudes = "[-6, -8, -10, -12, -14, -16, -18, -20]";
-  sensor.azimuths = "[0, 0, 0, 0, 0, 0, 0, 0]";
-  sensor.window = "[0, 63]";
-  sensor.beams = 8;
-  sensor.columns = 64;
-  return sensor;
-}
 
 void live_as_sensor(std::uint16_t port, const std::atomic<SensorMode>& mode,
                     const std::atomic<std::int64_t>& ahead_ns, const Board& board) {

@@ -9,9 +9,6 @@ namespace gvom::test {
 
 inline constexpr std::int64_t kDriveBegin_ns = 1'000'000'000'000;  // of the sensors' clock
 
-/// 8 beams that look down, 64 columns a turn, 10 turns a second: 160 packets a second.
-OusterSensor lab_sensor();
-
 /// Sends to the port as `mode` says, until it is killed. Its clock is so far ahead of the odometry's.
 [[noreturn]] void live_as_sensor(std::uint16_t port, const std::atomic<SensorMode>& mode,
                                  const std::atomic<std::int64_t>& ahead_ns, const Board& board);

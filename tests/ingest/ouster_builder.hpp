@@ -41,6 +41,18 @@ struct OusterSensor {
   }
 };
 
+/// 8 beams that see the ground nearby, 64 columns a turn.
+inline OusterSensor looking_down() {
+  OusterSensor sensor;
+  sensor.profile = "RNG19_RFL8_SIG16_NIR16";
+  sensor.altitudes = "[-6, -8, -10, -12, -14, -16, -18, -20]";
+  sensor.azimuths = "[0, 0, 0, 0, 0, 0, 0, 0]";
+  sensor.window = "[0, 63]";
+  sensor.beams = 8;
+  sensor.columns = 64;
+  return sensor;
+}
+
 inline std::string write_text(const std::string& path, const std::string& text) {
   std::ofstream(path) << text;
   return path;

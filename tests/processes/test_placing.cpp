@@ -17,30 +17,19 @@ using namespace std::chrono_literals;
 namespace {
 
 constexpr int kFrames = 30;
+/// Of looking_down(), whose seam lies in a sector of sky here.
 constexpr int kColumns = 64;  // a millisecond each, then 36 ms of nothing
 constexpr int kFirstReturn = 8;
 constexpr int kLastReturn = 47;  // what is beside them is sky
 
-/// A sensor whose seam lies in a sector of sky: the first and the last columns of a turn have no return.
-OusterSensor sensor() {
-  OusterSensor sensor;
-  sensor.profile = "RNG19_RFL8_SIG16_NIR16";
-  sensor.altitudes = "[-6, -8, -10, -12, -14, -16, -18, -20]";
-  sensor.azimuths = "[0, 0, 0, 0, 0, 0, 0, 0]";
-  sensor.window = "[0, 63]";
-  sensor.beams = 8;
-  sensor.columns = kColumns;
-  return sensor;
-}
-
 /// The capture's clock is `capture_ahead_ns` ahead of the sensor's; some packets come a little late.
 void write_recording(const std::string& folder, std::int64_t capture_ahead_ns = 0) {
-  write_text(folder + "/meta.json", sensor().json());
+  write_text(folder + "/meta.json", looking_down().json());
   PcapWriter pcap(folder + "/sky.pcap");
   for (int frame_id = 0; frame_id < kFrames; ++frame_id)
     for (int first = 0; first < kColumns; first += 4) {
       const bool sky = first < kFirstReturn || first > kLastReturn;
-      pcap.add(frame(plain_packet(sensor(), frame_id, first, sky ? 0 : 8000)),
+      pcap.add(frame(plain_packet(looking_down(), frame_id, first, sky ? 0 : 8000)),
                column_time_ns(frame_id, first + 3) + capture_ahead_ns + first % 3 * 200'000);
     }
   pcap.write();
