@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "services/common/config_table.hpp"
+#include "services/common/text_hash.hpp"
 
 namespace gvom::services {
 
@@ -36,17 +37,6 @@ unsigned concern_of(const std::string& key) {
   }
   return concern;
 }
-
-class Hash {
- public:
-  void add(const std::string& text) {
-    for (const char c : text + "\n") hash_ = (hash_ ^ static_cast<unsigned char>(c)) * 0x100000001b3;
-  }
-  [[nodiscard]] std::uint64_t value() const { return hash_; }
-
- private:
-  std::uint64_t hash_ = 0xcbf29ce484222325;
-};
 
 }  // namespace
 
@@ -110,16 +100,16 @@ std::string concerns_table() {
 
 std::uint64_t config_hash(const VehicleConfig& config, const std::string& process) {
   VehicleConfig copy = config;  // accessors hand out writable fields
-  Hash hash;
+  TextHash hash;
   for (const VehicleRow& row : vehicle_rows())
     if (concerns(row.info.key, process))
-      hash.add(std::string(row.info.key) + ": " + value_text(row.field(copy)));
+      hash.add(std::string(row.info.key) + ": " + value_text(row.field(copy)) + "\n");
   for (LidarConfig& lidar : copy.lidars) {
     const std::string prefix = "lidars." + lidar.name;
-    if (concerns("lidars", process)) hash.add(prefix);
+    if (concerns("lidars", process)) hash.add(prefix + "\n");
     for (const LidarRow& row : lidar_rows()) {
       const std::string key = prefix + "." + row.info.key;
-      if (concerns(key, process)) hash.add(key + ": " + value_text(row.field(lidar)));
+      if (concerns(key, process)) hash.add(key + ": " + value_text(row.field(lidar)) + "\n");
     }
   }
   return hash.value();

@@ -8,6 +8,7 @@
 
 #include "services/common/config_file.hpp"
 #include "services/common/config_table.hpp"
+#include "services/common/text_hash.hpp"
 
 namespace gvom::services {
 
@@ -256,9 +257,9 @@ void print_config(const VehicleConfig& config, std::ostream& out) {
 std::uint64_t config_hash(const VehicleConfig& config) {
   std::ostringstream text;
   print_config(config, text);
-  std::uint64_t hash = 0xcbf29ce484222325;
-  for (const char c : text.str()) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
-  return hash;
+  TextHash hash;
+  hash.add(text.str());
+  return hash.value();
 }
 
 void print_config_reference(std::ostream& out) {

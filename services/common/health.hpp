@@ -34,7 +34,8 @@ class StageHistogram {
 /// One for each process, used from its working loop. Nothing here allocates.
 class HealthReport {
  public:
-  /// `process` is the runtime name, e.g. "gvom-ingest-top"; `config_hash` as of config_file.hpp.
+  /// `process` is the runtime name, e.g. "gvom-ingest-top"; `config_hash` of what concerns it
+  /// (config_concerns.hpp).
   HealthReport(std::string_view process, std::uint64_t config_hash);
 
   /// A new counter; the reference stays valid. Throws std::length_error beyond Health::kMaxCounters (a

@@ -43,18 +43,11 @@ void listen(BusWatch& watch, const Expected& expected, const services::Lifecycle
            !are_all_heard(watch, expected) && std::chrono::steady_clock::now() < deadline);
 }
 
-bool are_the_same(const std::vector<ipc::PoolUse>& there, const std::vector<ipc::Pool>& planned) {
-  return std::equal(there.begin(), there.end(), planned.begin(), planned.end(),
-                    [](const ipc::PoolUse& a, const ipc::Pool& b) {
-                      return a.chunk_bytes == b.chunk_bytes && a.chunks == b.chunks;
-                    });
-}
-
 /// Why everything has to start again; empty if not.
 std::string why_all(const BusWatch& watch, const ipc::PoolPlan& plan) {
   if (watch.broker().state != BrokerState::up) return "no broker answers";
   if (watch.observed().pools().empty()) return "the broker does not tell its pools";
-  return are_the_same(watch.observed().pools(), plan.pools) ? "" : "the pools of shared memory change";
+  return has_other_pools(watch.observed().pools(), plan.pools) ? "the pools of shared memory change" : "";
 }
 
 /// What to do with a process that was heard; its method is null if nothing.

@@ -166,15 +166,6 @@ void judge_build(const Expected& expected, ProcessView& view) {
   view.other_config = hash && view.config_hash != hash_text(*hash);
 }
 
-/// The broker tells no configuration, but has pools for one.
-bool has_other_pools(const std::vector<ipc::PoolUse>& there, const std::vector<ipc::Pool>& expected) {
-  const auto same = [](const ipc::PoolUse& pool, const ipc::Pool& wanted) {
-    return pool.chunk_bytes == wanted.chunk_bytes && pool.chunks == wanted.chunks;
-  };
-  if (there.empty() || expected.empty()) return false;
-  return !std::equal(there.begin(), there.end(), expected.begin(), expected.end(), same);
-}
-
 /// One that is expected and was never heard.
 ProcessView never_heard(const std::string& name, const Broker& broker) {
   ProcessView view;
@@ -226,6 +217,14 @@ void complete(const Observed& observed, const Surroundings& surroundings, const 
 }
 
 }  // namespace
+
+bool has_other_pools(const std::vector<ipc::PoolUse>& there, const std::vector<ipc::Pool>& expected) {
+  const auto same = [](const ipc::PoolUse& pool, const ipc::Pool& wanted) {
+    return pool.chunk_bytes == wanted.chunk_bytes && pool.chunks == wanted.chunks;
+  };
+  if (there.empty() || expected.empty()) return false;
+  return !std::equal(there.begin(), there.end(), expected.begin(), expected.end(), same);
+}
 
 double tilt_degrees(const GroundView& ground) {
   return std::atan(std::hypot(ground.slope_x, ground.slope_y)) * 180 / M_PI;

@@ -133,6 +133,10 @@ const char* to_string(ipc::GroundVerdict verdict);
 /// "starting", "ok", ..., "unknown".
 const char* to_string(ProcessState state);
 
+/// Whether the broker, which tells no configuration, has the pools of another one. False while either is not
+/// known.
+bool has_other_pools(const std::vector<ipc::PoolUse>& there, const std::vector<ipc::Pool>& expected);
+
 /// What is not as it should be, in words; empty: all is well.
 std::vector<std::string> problems_of(const Snapshot& snapshot);
 
