@@ -113,3 +113,15 @@ TEST_CASE("without odometry the first map's epoch holds, until odometry contradi
   trust.believe(map_of(7, 60 * kSecond_ns));
   CHECK(trust.was_deceived());
 }
+
+TEST_CASE("a jump of the odometry is believed once the odometry has come to it") {
+  MapTrust trust = with_odometry(7, 10 * kSecond_ns);
+  ipc::BrickMap map = map_of(7, 10 * kSecond_ns + kSecond_ns / 2);
+  map.odometry_jump_ns = 10 * kSecond_ns + kSecond_ns / 4;
+  const auto lie = trust.judge(map, kNow_ns);
+  REQUIRE(lie);
+  CHECK(lie->about == MapLie::About::time);
+  CHECK_THAT(lie->why, Contains("the odometry is to jump 0.2 s after what is heard of it"));
+  trust.take(odometry_of(7, map.odometry_jump_ns));
+  CHECK_FALSE(trust.judge(map, kNow_ns));
+}

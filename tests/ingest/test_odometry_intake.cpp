@@ -195,3 +195,21 @@ TEST_CASE("what was lost is told by reason, with the key or the times that decid
         "20.0 "
         "s, sweeps 12.0 .. 12.0 s");
 }
+
+TEST_CASE("where the odometry goes back in time for good, maps from before must go, as after a jump") {
+  Stream stream;
+  for (int i = 0; i <= 20; ++i) stream.take(100 + i * 0.1, 0);
+  CHECK(stream.intake().poses().jump_before(ns(102)) == 0);
+  for (int i = 0; i <= 8; ++i) stream.take(40 + i * 0.1, 0);
+  CHECK(stream.intake().poses().jump_before(ns(40.8)) == ns(40.7));  // the eighth that went back
+  CHECK(stream.maps(40.8));
+  CHECK(stream.loses(SweepLoss::before_odometry, 40.75));
+}
+
+TEST_CASE("one stamp of long ago is no gap that is told for years") {
+  Stream stream;
+  stream.intake().take({{0, {}}, 0}, ns(1000));
+  for (int i = 0; i <= 700; ++i) stream.intake().take({{ns(1.7e9 + i * 0.1), {}}, 0}, ns(1000 + i * 0.1));
+  CHECK(stream.says(1010).find("odometry has a gap of ") == 0);
+  CHECK(stream.says(1070).empty());
+}

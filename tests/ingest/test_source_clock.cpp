@@ -1,6 +1,9 @@
 // Whose clock a source's stamps are of: lidars.NAME.clock and clock_offset_s.
 #include <cmath>
+#include <memory>
 
+#include "services/ingest/ouster_decoder.hpp"
+#include "services/ingest/packet_sweep_source.hpp"
 #include "tests/ingest/ouster_builder.hpp"
 #include "tests/ingest/recordings.hpp"
 #include "tests/tools/temporary_folder.hpp"
@@ -24,7 +27,67 @@ std::string recording(const std::string& folder) {
   return "ouster:" + pcap.write() + "?meta=" + write_text(folder + "/meta.json", sensor.json());
 }
 
+/// A small sensor on the network, ten turns a second. From `set_at_turn` on the wall clock is `set_by_ns`
+/// ahead of what it was; the machine was suspended for a second until then.
+class Wire final : public ingest::PacketSource {
+ public:
+  Wire(int turns, int set_at_turn, std::int64_t set_by_ns)
+      : turns_(turns), set_at_turn_(set_at_turn), set_by_ns_(set_by_ns) {}
+
+  tl::expected<ingest::PacketEvent, std::string> next(ingest::Packet& out,
+                                                      std::chrono::milliseconds) override {
+    if (turn_ == turns_) return ingest::PacketEvent::end;
+    bytes_ = plain_packet(sensor_, turn_, column_);
+    const bool set = turn_ >= set_at_turn_;
+    out.data = bytes_.data();
+    out.size = bytes_.size();
+    out.received_ns = sensor_.column_time_ns(turn_, column_ + 3);
+    out.capture_ns = kUnix_ns + out.received_ns + (set ? set_by_ns_ : 0);
+    out.suspended_ns = set ? 1'000'000'000 : 0;
+    column_ = (column_ + 4) % sensor_.columns;
+    if (column_ == 0) ++turn_;
+    return ingest::PacketEvent::packet;
+  }
+  tl::expected<void, std::string> rewind() override { return {}; }
+  [[nodiscard]] bool is_live() const override { return true; }
+
+ private:
+  const OusterSensor sensor_;
+  const int turns_, set_at_turn_;
+  const std::int64_t set_by_ns_;
+  int turn_ = 0, column_ = 0;
+  ByteVector bytes_;
+};
+
+std::vector<Sweep> live_sweeps(std::unique_ptr<Wire> wire, const ingest::SourceOptions& options) {
+  const TemporaryFolder folder;
+  auto state = std::make_unique<ingest::SourceState>();
+  auto metadata = ingest::read_ouster_metadata(
+      write_text(folder.path() + "/meta.json", OusterSensor{}.json()), state->warnings);
+  REQUIRE(metadata);
+  auto decoder = std::make_unique<ingest::OusterDecoder>(std::move(*metadata), options, *state);
+  ingest::PacketSweepSource source(std::move(state), std::move(wire), std::move(decoder), options);
+  return all_sweeps(source);
+}
+
 }  // namespace
+
+TEST_CASE("a wall clock that is set by a little is no delay of the network: the sweeps follow it") {
+  constexpr std::int64_t kStep_ns = 200'000'000;
+  const auto sweeps = live_sweeps(std::make_unique<Wire>(60, 40, kStep_ns), {0.5, 1000, true});
+  REQUIRE(sweeps.size() > 40);
+  const auto ahead_ns = [&](const Sweep& sweep) { return sweep.stamp_ns - kUnix_ns - sweep.received_ns; };
+  CHECK(ahead_ns(sweeps[sweeps.size() - 25]) == 0);
+  CHECK(ahead_ns(sweeps.back()) == kStep_ns);
+  CHECK(ahead_ns(sweeps[sweeps.size() - 15]) == kStep_ns);  // half a second after it
+}
+
+TEST_CASE("a sweep knows how long the machine had been suspended when its packets came") {
+  const auto sweeps = live_sweeps(std::make_unique<Wire>(30, 20, 0), {0.5, 1000});
+  REQUIRE(sweeps.size() > 12);
+  CHECK(sweeps[sweeps.size() - 11].suspended_ns == 0);
+  CHECK(sweeps[sweeps.size() - 10].suspended_ns == 1'000'000'000);
+}
 
 TEST_CASE("with clock: arrival the times are those at which packets came, exact within the sweep") {
   const TemporaryFolder folder;
