@@ -110,10 +110,26 @@ void fit_plane(const MapperConfig& config, int x, int y, Layers& out) {
   if (plane.steep) out.flags[i] |= kSteep;
 }
 
+// Which rows and columns hold any height at all. The others the search steps over: where next to nothing is
+// known it would look at each cell of the grid for each cell of the grid.
+struct KnownLines {
+  explicit KnownLines(const Layers& layers)
+      : row(std::size_t(layers.n), false), column(std::size_t(layers.n), false) {
+    for (std::size_t i = 0; i < layers.height.size(); ++i)
+      if (!std::isnan(layers.height[i]))
+        row[i / std::size_t(layers.n)] = column[i % std::size_t(layers.n)] = true;
+  }
+
+  std::vector<bool> row, column;
+};
+
 // The height that the search in the direction (dx, dy) finds, or NaN (R13).
-float search(const MapperConfig& config, const Layers& layers, int x, int y, int dx, int dy) {
-  const int to_edge = layers.n;  // farther on no cell has a height
-  for (int i = 1; i <= std::min(config.layers.search_distance, to_edge); ++i) {
+float search(const MapperConfig& config, const Layers& layers, const KnownLines& known, int x, int y, int dx,
+             int dy) {
+  for (int i = 1; i <= config.layers.search_distance; ++i) {
+    const int line = dx != 0 ? x + i * dx : y + i * dy;
+    if (line < 0 || line >= layers.n) return NAN;
+    if (!(dx != 0 ? known.column : known.row)[std::size_t(line)]) continue;
     for (int aside = 0; aside <= i; ++aside)
       for (const int offset : {-aside, aside}) {
         const float found =
@@ -125,13 +141,13 @@ float search(const MapperConfig& config, const Layers& layers, int x, int y, int
 }
 
 // R13.
-void find_negative(const MapperConfig& config, int x, int y, Layers& out) {
+void find_negative(const MapperConfig& config, const KnownLines& known, int x, int y, Layers& out) {
   const std::size_t i = out.index(x, y);
   out.negative_delta[i] = 0;
   if (!std::isnan(out.height[i]) || std::isnan(out.inferred_height[i])) return;
   std::vector<double> found;
   for (const auto& [dx, dy] : {std::pair(1, 0), std::pair(-1, 0), std::pair(0, 1), std::pair(0, -1)}) {
-    const float height = search(config, out, x, y, dx, dy);
+    const float height = search(config, out, known, x, y, dx, dy);
     if (!std::isnan(height)) found.push_back(height);
   }
   if (found.empty()) return;
@@ -213,7 +229,8 @@ Layers make_layers(const MapperConfig& config, const Fusion& fusion) {
                            : static_cast<float>(static_cast<double>(newest.stamp_ns - newest_ns[i]) * 1e-9);
   });
   each([&](int x, int y) { fit_plane(config, x, y, out); });
-  each([&](int x, int y) { find_negative(config, x, y, out); });
+  const KnownLines known(out);
+  each([&](int x, int y) { find_negative(config, known, x, y, out); });
   each([&](int x, int y) { out.cost[out.index(x, y)] = cost(config.cost, out, out.index(x, y)); });
   return out;
 }
