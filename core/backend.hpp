@@ -28,6 +28,12 @@ struct DeviceError {
 template <class T>
 using DeviceExpected = tl::expected<T, DeviceError>;
 
+/// How long a device took for one of its steps, by its own clock.
+struct KernelTime {
+  std::string name;
+  double ms = 0;
+};
+
 /// Half one for one lidar: the returns of a sweep are counted, then written as a buffer map (R2..R6).
 class VoxelizerBackend {
  public:
@@ -45,6 +51,8 @@ class VoxelizerBackend {
 
   /// Of the last counted sweep (R2).
   [[nodiscard]] virtual const FilterCounts& filter_counts() const = 0;
+  /// Of each step since the last call; nothing on the CPU, or where they are not timed.
+  virtual std::vector<KernelTime> take_kernel_times() { return {}; }
 };
 
 /// What a device spent on the last map and the last layers. Times are by the device's own clock.
@@ -81,6 +89,8 @@ class FusionBackend {
 
   /// Of the last `add` and the last `make_layers`; nothing on the CPU.
   [[nodiscard]] virtual std::optional<DeviceCosts> last_costs() const { return std::nullopt; }
+  /// Of each step since the last call; nothing on the CPU, or where they are not timed.
+  virtual std::vector<KernelTime> take_kernel_times() { return {}; }
 };
 
 }  // namespace gvom

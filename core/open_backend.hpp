@@ -30,6 +30,7 @@ struct FusionSetup {
   int lidars = 1;               ///< How many have maps in the window, 1 .. kMaxLidars.
   std::size_t max_returns = 0;  ///< Of any map: its records are at most as many.
   HostMemory shared;
+  bool times_kernels = false;  ///< A device notes how long each of its steps takes, and takes longer in all.
 };
 
 /// Half two. Errors: `cuda` was asked for and cannot start, with the driver's reason. `automatic` falls back
@@ -42,6 +43,7 @@ struct VoxelizerSetup {
   VehicleGeometry vehicle;
   std::size_t max_returns = 0;  ///< That a sweep can have.
   HostMemory shared;
+  bool times_kernels = false;  ///< A device notes how long each of its steps takes, and takes longer in all.
 };
 
 /// Half one for one lidar; else as `open_fusion`.

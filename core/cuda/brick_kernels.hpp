@@ -1,17 +1,15 @@
 // The steps from dense bricks to a brick map (R6).
 #pragma once
 
+#include <cuda_runtime.h>
+
 #include "core/cuda/device_map.hpp"
 
 namespace gvom::cuda {
 
 /// Number of set bits.
-GVOM_HD inline std::uint32_t count_bits(std::uint64_t bits) {
-#ifdef __CUDA_ARCH__
+__device__ inline std::uint32_t count_bits(std::uint64_t bits) {
   return static_cast<std::uint32_t>(__popcll(bits));
-#else
-  return static_cast<std::uint32_t>(__builtin_popcountll(bits));
-#endif
 }
 
 /// What BrickWriter's kernels share.
@@ -23,14 +21,14 @@ struct BrickWork {
   std::uint64_t* sizes;
   std::uint64_t* starts;
 
-  [[nodiscard]] GVOM_HD std::size_t cells_of(std::int32_t slot) const {
+  [[nodiscard]] __device__ std::size_t cells_of(std::int32_t slot) const {
     return bricks.begin_of(world_brick(grid, slot));
   }
-  [[nodiscard]] GVOM_HD bool has_brick(std::int32_t slot) const { return sizes[slot] >> 32 != 0; }
-  [[nodiscard]] GVOM_HD std::uint32_t brick_of(std::int32_t slot) const {
+  [[nodiscard]] __device__ bool has_brick(std::int32_t slot) const { return sizes[slot] >> 32 != 0; }
+  [[nodiscard]] __device__ std::uint32_t brick_of(std::int32_t slot) const {
     return static_cast<std::uint32_t>(starts[slot] >> 32);
   }
-  [[nodiscard]] GVOM_HD std::uint32_t first_record_of(std::int32_t slot) const {
+  [[nodiscard]] __device__ std::uint32_t first_record_of(std::int32_t slot) const {
     return static_cast<std::uint32_t>(starts[slot]);
   }
 };
@@ -39,7 +37,7 @@ struct BrickWork {
 struct MeasureColumns {
   BrickWork work;
 
-  GVOM_HD void operator()(std::int32_t i) const {
+  __device__ void operator()(std::int32_t i) const {
     const std::size_t begin = work.cells_of(i / 64) + static_cast<std::size_t>(i % 64 * kBrickEdge);
     const Eight<std::uint32_t> hits = read_eight(work.bricks.hits + begin);
     const Eight<std::uint32_t> passes = read_eight(work.bricks.passes + begin);
@@ -58,7 +56,7 @@ struct MeasureBricks {
   BrickWork work;
   std::int32_t slots;
 
-  GVOM_HD void operator()(std::int32_t slot) const {
+  __device__ void operator()(std::int32_t slot) const {
     std::uint64_t size = 0;
     if (slot < slots) {
       const auto* observed = reinterpret_cast<const std::uint64_t*>(work.observed) + slot * 8;
@@ -76,7 +74,7 @@ struct WriteDirectory {
   BrickWork work;
   BrickMapArrays out;
 
-  GVOM_HD void operator()(std::int32_t slot) const {
+  __device__ void operator()(std::int32_t slot) const {
     out.directory[slot] = work.has_brick(slot) ? static_cast<std::int32_t>(work.brick_of(slot)) : -1;
     if (!work.has_brick(slot)) return;
     std::uint64_t columns = 0;
@@ -91,7 +89,7 @@ struct WriteColumns {
   BrickWork work;
   BrickMapArrays out;
 
-  GVOM_HD void operator()(std::int32_t i) const {
+  __device__ void operator()(std::int32_t i) const {
     const std::int32_t slot = i / 64, column = i % 64;
     if (!work.has_brick(slot)) return;
     const std::size_t begin = work.cells_of(slot) + static_cast<std::size_t>(column * kBrickEdge);
@@ -111,7 +109,7 @@ struct WriteColumns {
 
  private:
   /// Of the brick's columns before this one.
-  GVOM_HD std::uint32_t records_before(std::int32_t slot, std::int32_t column) const {
+  __device__ std::uint32_t records_before(std::int32_t slot, std::int32_t column) const {
     const auto* hit = reinterpret_cast<const std::uint64_t*>(work.hit) + slot * 8;
     std::uint32_t records = 0;
     for (int word = 0; word < column / 8; ++word) records += count_bits(hit[word]);

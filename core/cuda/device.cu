@@ -1,5 +1,8 @@
 #include <cuda_runtime.h>
 
+#include <cxxabi.h>
+
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <utility>
@@ -11,13 +14,31 @@ namespace gvom::cuda {
 
 namespace {
 
-std::string words(const char* call, cudaError_t error) {
-  return std::string(call) + ": " + cudaGetErrorString(error);
+// `call` may have its arguments behind it, which say nothing to people.
+std::string words(const std::string& call, cudaError_t error) {
+  return call.substr(0, call.find('(')) + ": " + cudaGetErrorString(error);
 }
 
 struct PlayableGraph {
   cudaGraphExec_t exec = nullptr;
   std::uint64_t launches = 0;
+  std::function<void()> describe;  // in place of `exec` where kernels are timed
+};
+
+// "gvom::cuda::UpdateBricks" becomes "UpdateBricks".
+std::string plain_name(const char* type) {
+  int status = 0;
+  const std::unique_ptr<char, decltype(&std::free)> name(abi::__cxa_demangle(type, nullptr, nullptr, &status),
+                                                         &std::free);
+  const std::string whole = status == 0 ? name.get() : type;
+  const std::size_t end = whole.find('<');
+  const std::size_t colon = whole.rfind(':', end);
+  return colon == std::string::npos ? whole : whole.substr(colon + 1, end - colon - 1);
+}
+
+struct TimedKernel {
+  std::string name;
+  cudaEvent_t begin = nullptr, end = nullptr;
 };
 
 }  // namespace
@@ -32,6 +53,9 @@ struct Device::State {
   std::vector<void*> pinned_ranges;
   std::vector<PlayableGraph> graphs;
   std::uint64_t launches = 0;
+  bool times_kernels = false;
+  std::vector<TimedKernel> timed;  // the first `timed_count` are of now, the others' events are used again
+  std::size_t timed_count = 0;
   std::string failure;
 
   // Keeps the first error, and takes it from the runtime, which would tell it again to whoever asks next.
@@ -44,6 +68,7 @@ struct Device::State {
   [[nodiscard]] bool good() const { return failure.empty(); }
 
   void start();
+  void capture(const std::function<void()>& describe, PlayableGraph& playable);
 };
 
 // Every call is checked, and none is made after the first that failed.
@@ -79,12 +104,17 @@ Device::Device(std::unique_ptr<State> state) : state_(std::move(state)) {}
 // Errors are of no more use to anybody here.
 Device::~Device() {
   if (state_->stream != nullptr) cudaStreamSynchronize(state_->stream);
-  for (const PlayableGraph& graph : state_->graphs) cudaGraphExecDestroy(graph.exec);
+  for (const PlayableGraph& graph : state_->graphs)
+    if (graph.exec != nullptr) cudaGraphExecDestroy(graph.exec);
   for (void* range : state_->pinned_ranges) cudaHostUnregister(range);
   for (void* memory : state_->device_memory) cudaFree(memory);
   for (void* memory : state_->pinned_memory) cudaFreeHost(memory);
   for (cudaEvent_t moment : state_->moments)
     if (moment != nullptr) cudaEventDestroy(moment);
+  for (const TimedKernel& kernel : state_->timed) {
+    if (kernel.begin != nullptr) cudaEventDestroy(kernel.begin);
+    if (kernel.end != nullptr) cudaEventDestroy(kernel.end);
+  }
   if (state_->stream != nullptr) cudaStreamDestroy(state_->stream);
 }
 
@@ -96,8 +126,15 @@ void* Device::allocate(std::size_t bytes) {
   void* memory = nullptr;
   if (bytes == 0 || !GVOM_CUDA(cudaMalloc(&memory, bytes))) return nullptr;
   state_->device_memory.push_back(memory);
-  clear(memory, bytes);
   return memory;
+}
+
+void Device::release(void* memory) {
+  auto& all = state_->device_memory;
+  const auto place = std::find(all.begin(), all.end(), memory);
+  if (place == all.end()) return;
+  all.erase(place);
+  GVOM_CUDA(cudaFree(memory));
 }
 
 void* Device::allocate_pinned(std::size_t bytes) {
@@ -150,24 +187,33 @@ void Device::clear(void* begin, std::size_t bytes) {
 }
 
 Device::Graph Device::record(const std::function<void()>& describe) {
-  const std::uint64_t before = state_->launches;
-  cudaGraph_t graph = nullptr;
   PlayableGraph playable;
-  if (GVOM_CUDA(cudaStreamBeginCapture(state_->stream, cudaStreamCaptureModeThreadLocal))) {
-    describe();
-    state_->check("cudaStreamEndCapture", cudaStreamEndCapture(state_->stream, &graph));
-  }
-  GVOM_CUDA(cudaGraphInstantiate(&playable.exec, graph, 0));
-  GVOM_CUDA(cudaGraphUpload(playable.exec, state_->stream));
-  if (graph != nullptr) cudaGraphDestroy(graph);
-  playable.launches = std::exchange(state_->launches, before) - before;
+  if (state_->times_kernels)
+    playable.describe = describe;
+  else
+    state_->capture(describe, playable);
   state_->graphs.push_back(playable);
   return state_->graphs.size() - 1;
 }
 
+void Device::State::capture(const std::function<void()>& describe, PlayableGraph& playable) {
+  if (!good()) return;
+  const std::uint64_t before = launches;
+  cudaGraph_t graph = nullptr;
+  if (!check("cudaStreamBeginCapture", cudaStreamBeginCapture(stream, cudaStreamCaptureModeThreadLocal)))
+    return;
+  describe();
+  check("cudaStreamEndCapture", cudaStreamEndCapture(stream, &graph));
+  if (good()) check("cudaGraphInstantiate", cudaGraphInstantiate(&playable.exec, graph, 0));
+  if (good()) check("cudaGraphUpload", cudaGraphUpload(playable.exec, stream));
+  if (graph != nullptr) cudaGraphDestroy(graph);
+  playable.launches = std::exchange(launches, before) - before;
+}
+
 void Device::play(Graph graph) {
-  if (GVOM_CUDA(cudaGraphLaunch(state_->graphs[graph].exec, state_->stream)))
-    state_->launches += state_->graphs[graph].launches;
+  const PlayableGraph& playable = state_->graphs[graph];
+  if (playable.describe) return playable.describe();
+  if (GVOM_CUDA(cudaGraphLaunch(playable.exec, state_->stream))) state_->launches += playable.launches;
 }
 
 void Device::mark(int moment) {
@@ -210,9 +256,39 @@ void* Device::stream() const {
   return state_->stream;
 }
 
+void Device::time_kernels() {
+  state_->times_kernels = true;
+}
+
+std::vector<KernelTime> Device::take_kernel_times() {
+  std::vector<KernelTime> times;
+  for (std::size_t i = 0; i < std::exchange(state_->timed_count, 0); ++i) {
+    const TimedKernel& kernel = state_->timed[i];
+    float ms = 0;
+    if (GVOM_CUDA(cudaEventElapsedTime(&ms, kernel.begin, kernel.end)))
+      times.push_back({kernel.name, static_cast<double>(ms)});
+  }
+  return times;
+}
+
+void Device::begin_kernel(const char* type) {
+  if (!state_->times_kernels) return;
+  if (state_->timed_count == state_->timed.size()) {
+    TimedKernel fresh;
+    GVOM_CUDA(cudaEventCreate(&fresh.begin));
+    GVOM_CUDA(cudaEventCreate(&fresh.end));
+    state_->timed.push_back(fresh);
+  }
+  state_->timed[state_->timed_count].name = plain_name(type);
+  GVOM_CUDA(cudaEventRecord(state_->timed[state_->timed_count].begin, state_->stream));
+}
+
 void Device::note_launch(int error, int kernels) {
   state_->launches += static_cast<std::uint64_t>(kernels);
   state_->check("launching a kernel", static_cast<cudaError_t>(error));
+  if (!state_->times_kernels || kernels == 0) return;
+  GVOM_CUDA(cudaEventRecord(state_->timed[state_->timed_count].end, state_->stream));
+  ++state_->timed_count;
 }
 
 }  // namespace gvom::cuda

@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/open_backend.hpp"
 
@@ -32,8 +33,11 @@ class Device {
 
   [[nodiscard]] const DeviceInfo& info() const;
 
-  /// Memory of the device, zero at first, 256-byte aligned; it goes with this object. Null after a failure.
+  /// Memory of the device, 256-byte aligned, that holds anything at first; it goes with this object. Null
+  /// after a failure.
   void* allocate(std::size_t bytes);
+  /// Gives some of it back before that, when all work so far is done. Nothing happens to null.
+  void release(void* memory);
   /// Memory of the host that the device copies from and to without help; it goes with this object too, and
   /// holds anything at first.
   void* allocate_pinned(std::size_t bytes);
@@ -62,6 +66,7 @@ class Device {
   /// Work that is described once and repeated at a single call. Values are taken when it is described: what
   /// changes from one time to the next must lie in the device's memory.
   using Graph = std::size_t;
+  /// @param describe may be called again later: what it refers to must live as long as this object
   Graph record(const std::function<void()>& describe);
   void play(Graph graph);
 
@@ -82,12 +87,18 @@ class Device {
   /// Kernels so far, those of graphs too.
   [[nodiscard]] std::uint64_t launches() const;
 
+  /// From now on the device notes how long each kernel takes. Graphs that are recorded later are then played
+  /// kernel by kernel, so a tick takes longer: for benchmarks.
+  void time_kernels();
+  /// Of each kernel since the last call, in order; after `wait`.
+  std::vector<KernelTime> take_kernel_times();
+
   // For core/cuda/launch.hpp and core/cuda/scan.hpp.
   [[nodiscard]] void* stream() const;
-  /// After `kernels` launches, with the runtime's answer.
+  /// Before a launch. `type` is the name of a type as typeid tells it.
+  void begin_kernel(const char* type);
+  /// After it, with the runtime's answer, and how many kernels it was.
   void note_launch(int error, int kernels = 1);
-  /// In place of a launch where kernels are run on the host: only the serial device of the tests has it.
-  void run_serially(std::function<void()> kernel);
 
  private:
   struct State;

@@ -16,6 +16,9 @@ struct DeviceMap {
   const std::int32_t* lookup;
   const std::uint64_t* columns;
   const VoxelRecord* records;
+  /// For each stack of the grid's bricks, [y][x]: which of its 64 columns have an observed voxel in the fused
+  /// map's reach. The device keeps it up to date.
+  std::uint64_t* observed;
 
   /// The brick at world brick coordinates, or -1.
   GVOM_HD std::int32_t brick_at(const Int3& world_brick) const {

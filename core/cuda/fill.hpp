@@ -1,8 +1,8 @@
 #pragma once
 
-#include <cstdint>
+#include <cuda_runtime.h>
 
-#include "core/format/platform.hpp"
+#include <cstdint>
 
 namespace gvom::cuda {
 
@@ -11,7 +11,7 @@ template <class T>
 struct Fill {
   T* to;
   T value;
-  GVOM_HD void operator()(std::int32_t i) const { to[i] = value; }
+  __device__ void operator()(std::int32_t i) const { to[i] = value; }
 };
 
 }  // namespace gvom::cuda

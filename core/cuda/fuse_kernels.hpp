@@ -1,9 +1,14 @@
 // What a tick does to the fused map, brick by brick and column by column (R7, R8, R15).
+//
+// The lanes of a warp look for a brick in 32 maps of the window at once: one after the other, each look would
+// wait for the memory.
 #pragma once
 
 #include "core/cell.hpp"
 #include "core/cuda/atomics.hpp"
+#include "core/cuda/cell_column.hpp"
 #include "core/cuda/device_map.hpp"
+#include "core/cuda/lanes.hpp"
 
 namespace gvom::cuda {
 
@@ -17,118 +22,68 @@ struct FuseTick {
   std::int32_t left_maps;
   bool moved_in_z;
 
-  [[nodiscard]] GVOM_HD const DeviceMap& map(std::int32_t i) const {
+  [[nodiscard]] __device__ const DeviceMap& map(std::int32_t i) const {
     return reinterpret_cast<const DeviceMap*>(this + 1)[i];
   }
-  [[nodiscard]] GVOM_HD const DeviceMap& left(std::int32_t i) const { return map(window_maps + i); }
-  [[nodiscard]] GVOM_HD bool enters(const Int3& world_brick) const {
+  [[nodiscard]] __device__ const DeviceMap& left(std::int32_t i) const { return map(window_maps + i); }
+  [[nodiscard]] __device__ bool enters(const Int3& world_brick) const {
     return before.slot_of_brick(world_brick) < 0;
   }
 };
 static_assert(sizeof(FuseTick) % alignof(DeviceMap) == 0);
 
-/// For each slot of the grid: lists it if the tick changes its brick.
+/// Calls `visit(map, brick)` for those of `count` maps from `first` on that have a brick, with its index in
+/// each, until that says false.
+template <class Visit>
+__device__ void for_each_holder(const FuseTick& tick, std::int32_t first, std::int32_t count,
+                                const Int3& world_brick, Visit&& visit) {
+  for (std::int32_t begin = 0; begin < count; begin += kLanes) {
+    PerLane<std::int32_t> brick;
+    for_each_lane([&](std::int32_t lane) {
+      const bool is_map = begin + lane < count;
+      brick[lane] = is_map ? tick.map(first + begin + lane).brick_at(world_brick) : -1;
+    });
+    std::uint32_t holders = vote([&](std::int32_t lane) { return brick[lane] >= 0; });
+    for (; holders != 0; holders &= holders - 1) {
+      const std::int32_t lane = lowest_lane(holders);
+      if (!visit(tick.map(first + begin + lane), of_lane(brick, lane))) return;
+    }
+  }
+}
+
+/// For each 32 slots of the grid: lists those whose brick the tick changes.
 struct ListChangedBricks {
   const FuseTick* tick;
+  std::int32_t slots;
   std::uint32_t* listed;  ///< Slots, in no order.
   std::uint32_t* count;
 
-  GVOM_HD void operator()(std::int32_t slot) const {
+  __device__ void operator()(std::int32_t i) const {
+    const std::int32_t first = i * kLanes;
+    const std::uint32_t changes =
+        vote([&](std::int32_t lane) { return first + lane < slots && changed(first + lane); });
+    if (changes == 0) return;
+    PerLane<std::uint32_t> taken;
+    in_lane(0, [&] { taken[0] = take(count, count_lanes(changes)); });
+    const std::uint32_t place = of_lane(taken, 0);
+    for_each_lane([&](std::int32_t lane) {
+      if ((changes >> lane & 1) != 0)
+        listed[place + lanes_before(changes, lane)] = static_cast<std::uint32_t>(first + lane);
+    });
+  }
+
+ private:
+  [[nodiscard]] __device__ bool changed(std::int32_t slot) const {
     const Int3 brick = world_brick(tick->grid, slot);
     bool changed = tick->moved_in_z || tick->enters(brick) || tick->map(tick->added).brick_at(brick) >= 0;
     for (std::int32_t i = 0; i < tick->left_maps && !changed; ++i)
       changed = tick->left(i).brick_at(brick) >= 0;
-    if (changed) listed[take_one(count)] = static_cast<std::uint32_t>(slot);
+    return changed;
   }
 };
 
-/// Eight fused voxels above each other: a column within a brick.
-class CellColumn {
- public:
-  GVOM_HD CellColumn(const DenseBricks& bricks, std::size_t begin, bool empty) {
-    if (empty) {
-      for (int z = 0; z < kBrickEdge; ++z) hits_.at[z] = 0, passes_.at[z] = 0, min_m_.at[z] = kNoHeight_m;
-    } else {
-      hits_ = read_eight(bricks.hits + begin);
-      passes_ = read_eight(bricks.passes + begin);
-      min_m_ = read_eight(bricks.min_height_m + begin);
-    }
-  }
-
-  GVOM_HD void write(const DenseBricks& bricks, std::size_t begin) const {
-    write_eight(bricks.hits + begin, hits_);
-    write_eight(bricks.passes + begin, passes_);
-    write_eight(bricks.min_height_m + begin, min_m_);
-  }
-
-  GVOM_HD void add(const DeviceMap& map, const Int3& brick, std::int32_t column) {
-    for_each_cell(map, brick, column, [this, &map](int z, std::int32_t lookup) {
-      passes_.at[z] += free_passes(lookup);
-      if (lookup >= 0) add_record(map.records[lookup], cell(z));
-    });
-  }
-
-  GVOM_HD void subtract(const DeviceMap& map, const Int3& brick, std::int32_t column) {
-    for_each_cell(map, brick, column, [this, &map](int z, std::int32_t lookup) {
-      passes_.at[z] -= free_passes(lookup);
-      if (lookup >= 0 && subtract_record(map.records[lookup], cell(z))) stale_ |= 1u << z;
-    });
-  }
-
-  /// Looks minima that left up in the window, until all maps that hit a voxel were seen or none can be lower.
-  GVOM_HD void restore_minima(const FuseTick& tick, const Int3& brick, std::int32_t column) {
-    Eight<std::uint32_t> unseen_hits = hits_;
-    const Eight<float> least_m = min_m_;
-    for (int z = 0; z < kBrickEdge; ++z) {
-      if (hits_.at[z] == 0) stale_ &= ~(1u << z);
-      if (stale_ >> z & 1) min_m_.at[z] = kNoHeight_m;
-    }
-    for (std::int32_t i = 0; i < tick.window_maps && stale_ != 0; ++i) {
-      const DeviceMap& map = tick.map(i);
-      for_each_cell(map, brick, column, [&](int z, std::int32_t lookup) {
-        if (lookup < 0 || (stale_ >> z & 1) == 0) return;
-        const VoxelRecord& record = map.records[lookup];
-        min_m_.at[z] = lower(min_m_.at[z], record.min_height_m);
-        unseen_hits.at[z] -= record.hits;
-        if (unseen_hits.at[z] == 0 || min_m_.at[z] == least_m.at[z]) stale_ &= ~(1u << z);
-      });
-    }
-  }
-
-  /// Bit z: occupied, free (R8).
-  [[nodiscard]] GVOM_HD std::uint8_t occupied(std::uint32_t min_hits) const {
-    unsigned bits = 0;
-    for (int z = 0; z < kBrickEdge; ++z)
-      bits |= static_cast<unsigned>(is_occupied(hits_.at[z], min_hits)) << z;
-    return static_cast<std::uint8_t>(bits);
-  }
-  [[nodiscard]] GVOM_HD std::uint8_t free(std::uint32_t min_hits) const {
-    unsigned bits = 0;
-    for (int z = 0; z < kBrickEdge; ++z)
-      bits |= static_cast<unsigned>(is_free(hits_.at[z], passes_.at[z], min_hits)) << z;
-    return static_cast<std::uint8_t>(bits);
-  }
-
- private:
-  /// Calls `visit(z, lookup)` for the map's eight voxels, if it has the brick.
-  template <class Visit>
-  GVOM_HD static void for_each_cell(const DeviceMap& map, const Int3& brick, std::int32_t column,
-                                    Visit&& visit) {
-    const std::int32_t index = map.brick_at(brick);
-    if (index < 0) return;
-    const Eight<std::int32_t> lookup =
-        read_eight(map.lookup + static_cast<std::size_t>(index) * kBrickCells + column * kBrickEdge);
-    for (int z = 0; z < kBrickEdge; ++z) visit(z, lookup.at[z]);
-  }
-  GVOM_HD FusedCell cell(int z) { return {hits_.at[z], passes_.at[z], min_m_.at[z]}; }
-
-  Eight<std::uint32_t> hits_;
-  Eight<std::uint32_t> passes_;
-  Eight<float> min_m_;
-  std::uint32_t stale_ = 0;
-};
-
-/// For each of the 64 columns of each listed brick: brings its voxels and its byte of the masks up to date.
+/// For each half of a listed brick, a lane for each of its 32 columns: brings their voxels and their bytes of
+/// the masks up to date.
 struct UpdateBricks {
   const FuseTick* tick;
   const std::uint32_t* listed;
@@ -138,28 +93,81 @@ struct UpdateBricks {
   std::int32_t mask_bytes;  ///< Of a column.
   std::uint32_t min_hits;
 
-  GVOM_HD void operator()(std::int32_t i) const {
-    const Int3 brick = world_brick(tick->grid, static_cast<std::int32_t>(listed[i / 64]));
-    const std::int32_t column = i % 64;
-    const std::size_t begin = bricks.begin_of(brick) + static_cast<std::size_t>(column * kBrickEdge);
-    const bool enters = tick->enters(brick);
-    CellColumn cells(bricks, begin, enters);
-    if (enters) {
-      for (std::int32_t m = 0; m < tick->window_maps; ++m) cells.add(tick->map(m), brick, column);
+  static constexpr std::int32_t kPerBrick = kBrickColumns / kLanes;
+
+  __device__ void operator()(std::int32_t i) const {
+    const Int3 brick = world_brick(tick->grid, static_cast<std::int32_t>(listed[i / kPerBrick]));
+    const std::int32_t first = i % kPerBrick * kLanes;
+    const std::size_t begin = bricks.begin_of(brick) + static_cast<std::size_t>(first) * kBrickEdge;
+    const auto cells_of = [&](std::int32_t lane) {
+      return begin + static_cast<std::size_t>(lane) * kBrickEdge;
+    };
+    PerLane<CellColumn> cells;
+    if (tick->enters(brick)) {
+      sum_window(brick, first, cells);
     } else {
-      cells.add(tick->map(tick->added), brick, column);
-      for (std::int32_t m = 0; m < tick->left_maps; ++m) cells.subtract(tick->left(m), brick, column);
-      cells.restore_minima(*tick, brick, column);
+      for_each_lane([&](std::int32_t lane) { cells[lane].read(bricks, cells_of(lane)); });
+      change(brick, first, begin, cells);
     }
-    cells.write(bricks, begin);
-    const std::size_t byte = mask_byte(brick, column);
-    occupied[byte] = cells.occupied(min_hits);
-    free[byte] = cells.free(min_hits);
+    for_each_lane([&](std::int32_t lane) {
+      cells[lane].write(bricks, cells_of(lane));
+      const std::size_t byte = mask_byte(brick, first + lane);
+      occupied[byte] = cells[lane].occupied(min_hits);
+      free[byte] = cells[lane].free(min_hits);
+    });
   }
 
  private:
+  __device__ void sum_window(const Int3& brick, std::int32_t first, PerLane<CellColumn>& cells) const {
+    for_each_lane([&](std::int32_t lane) { cells[lane].clear(); });
+    for_each_holder(*tick, 0, tick->window_maps, brick, [&](const DeviceMap& map, std::int32_t index) {
+      for_each_lane([&](std::int32_t lane) { cells[lane].add(map, read_lookup(map, index, first + lane)); });
+      return true;
+    });
+  }
+
+  // Minima are read only where a record comes or leaves.
+  __device__ void change(const Int3& brick, std::int32_t first, std::size_t begin,
+                         PerLane<CellColumn>& cells) const {
+    const auto read_minima = [&](std::int32_t lane, const Eight<std::int32_t>& lookup) {
+      if (has_record(lookup))
+        cells[lane].read_minima(bricks, begin + static_cast<std::size_t>(lane) * kBrickEdge);
+    };
+    for_each_holder(*tick, tick->added, 1, brick, [&](const DeviceMap& map, std::int32_t index) {
+      for_each_lane([&](std::int32_t lane) {
+        const Eight<std::int32_t> lookup = read_lookup(map, index, first + lane);
+        read_minima(lane, lookup);
+        cells[lane].add(map, lookup);
+      });
+      return true;
+    });
+    for_each_holder(*tick, tick->window_maps, tick->left_maps, brick,
+                    [&](const DeviceMap& map, std::int32_t index) {
+                      for_each_lane([&](std::int32_t lane) {
+                        const Eight<std::int32_t> lookup = read_lookup(map, index, first + lane);
+                        read_minima(lane, lookup);
+                        cells[lane].subtract(map, lookup);
+                      });
+                      return true;
+                    });
+    restore_minima(brick, first, cells);
+  }
+
+  // Looks minima that left up in the window.
+  __device__ void restore_minima(const Int3& brick, std::int32_t first, PerLane<CellColumn>& cells) const {
+    for_each_lane([&](std::int32_t lane) { cells[lane].forget_stale_minima(); });
+    const auto any_stale = [&] { return vote([&](std::int32_t lane) { return cells[lane].stale(); }) != 0; };
+    if (!any_stale()) return;
+    for_each_holder(*tick, 0, tick->window_maps, brick, [&](const DeviceMap& map, std::int32_t index) {
+      for_each_lane([&](std::int32_t lane) {
+        if (cells[lane].stale()) cells[lane].restore(map, read_lookup(map, index, first + lane));
+      });
+      return any_stale();
+    });
+  }
+
   // Little-endian, as all machines with CUDA are.
-  GVOM_HD std::size_t mask_byte(const Int3& brick, std::int32_t column) const {
+  __device__ std::size_t mask_byte(const Int3& brick, std::int32_t column) const {
     const std::int32_t n_xy = bricks.bricks[0] * kBrickEdge;
     const std::int32_t x = wrap(brick[0], bricks.bricks[0]) * kBrickEdge + column / kBrickEdge;
     const std::int32_t y = wrap(brick[1], bricks.bricks[1]) * kBrickEdge + column % kBrickEdge;
@@ -168,48 +176,79 @@ struct UpdateBricks {
   }
 };
 
-/// For each column of the grid: when it was last observed (R15).
+/// For each stack of the grid's bricks: when each of its 64 columns was last observed (R15). A lane for each
+/// map of the window; its word of the stack is summed when the map comes, when the stack enters the grid, and
+/// when the grid moves up or down.
 struct UpdateLastSeen {
   const FuseTick* tick;
   std::int64_t* last_seen_ns;  ///< As in FusedView.
   std::int32_t n_xy;
 
-  GVOM_HD void operator()(std::int32_t i) const {
-    const Int3& origin = tick->grid.origin;
-    const std::int32_t x = origin[0] + i % n_xy, y = origin[1] + i / n_xy;
-    const Int3 lowest{floor_to_brick(x) / kBrickEdge, floor_to_brick(y) / kBrickEdge, origin[2] / kBrickEdge};
-    const int bit = (x & 7) * kBrickEdge + (y & 7);
-    std::int64_t& place = last_seen_ns[wrap(y, n_xy) * n_xy + wrap(x, n_xy)];
-    std::int64_t last_ns = place;
-    if (tick->moved_in_z || tick->enters(lowest)) {
-      last_ns = newest(lowest, bit, INT64_MAX);
-    } else {
-      const DeviceMap& added = tick->map(tick->added);
-      if (added.stamp_ns > last_ns && observes(added, lowest, bit)) last_ns = added.stamp_ns;
-      for (std::int32_t m = 0; m < tick->left_maps; ++m)
-        if (tick->left(m).stamp_ns == last_ns) last_ns = newest(lowest, bit, last_ns);
+  __device__ void operator()(std::int32_t stack) const {
+    const Int3 lowest = world_brick(tick->grid, stack);
+    PerLane<Newest> newest;
+    for (std::int32_t first = 0; first < tick->window_maps; first += kLanes) {
+      PerLane<std::uint64_t> word;
+      for_each_lane([&](std::int32_t lane) {
+        word[lane] = first + lane < tick->window_maps ? observed(first + lane, lowest) : 0;
+      });
+      for (std::int32_t column = 0; column < kBrickColumns; ++column) {
+        const std::uint32_t seen = vote([&](std::int32_t lane) { return (word[lane] >> column & 1) != 0; });
+        in_lane(column % kLanes, [&] { newest[column % kLanes].take(column / kLanes, first, seen); });
+      }
     }
-    place = last_ns;
+    for_each_lane([&](std::int32_t lane) {
+      for (std::int32_t half = 0; half < Newest::kHalves; ++half)
+        last_seen_ns[place(lowest, lane + half * kLanes)] = stamp_of(newest[lane].map[half]);
+    });
   }
 
  private:
-  /// Whether a map observed a voxel of the column that starts in the brick `lowest`.
-  GVOM_HD bool observes(const DeviceMap& map, const Int3& lowest, int bit) const {
-    const std::int32_t n_z = tick->grid.bricks()[2];
-    for (std::int32_t z = 0; z < n_z; ++z) {
-      const std::int32_t brick = map.brick_at({lowest[0], lowest[1], lowest[2] + z});
-      if (brick >= 0 && (map.columns[brick] >> bit & 1) != 0) return true;
+  /// For the columns `lane` and `lane + 32`: one more than the index of the newest map that observed it, or
+  /// 0.
+  struct Newest {
+    static constexpr std::int32_t kHalves = kBrickColumns / kLanes;
+    std::int32_t map[kHalves] = {};
+
+    __device__ void take(std::int32_t half, std::int32_t first, std::uint32_t seen) {
+      for (std::int32_t h = 0; h < kHalves; ++h)  // a constant index stays in a register
+        if (h == half && map[h] == 0 && seen != 0) map[h] = first + lowest_lane(seen) + 1;
     }
-    return false;
+  };
+
+  /// A map's word of the stack that starts in the brick `lowest`.
+  __device__ std::uint64_t observed(std::int32_t m, const Int3& lowest) const {
+    const DeviceMap& map = tick->map(m);
+    const std::int32_t stack =
+        map.grid.slot_of_brick({lowest[0], lowest[1], map.grid.origin[2] / kBrickEdge});
+    if (stack < 0) return 0;
+    if (m == tick->added || tick->moved_in_z || tick->enters(lowest)) map.observed[stack] = sum(map, lowest);
+    return map.observed[stack];
   }
 
-  /// The newest stamp of the window up to `most_ns` whose map observed the column.
-  GVOM_HD std::int64_t newest(const Int3& lowest, int bit, std::int64_t most_ns) const {
-    for (std::int32_t m = 0; m < tick->window_maps; ++m) {
-      const DeviceMap& map = tick->map(m);
-      if (map.stamp_ns <= most_ns && observes(map, lowest, bit)) return map.stamp_ns;
+  /// In batches of eight: the looks of a batch do not wait for each other.
+  __device__ std::uint64_t sum(const DeviceMap& map, const Int3& lowest) const {
+    const std::int32_t n_z = tick->grid.bricks()[2];
+    std::uint64_t columns = 0;
+    for (std::int32_t first = 0; first < n_z; first += kBrickEdge) {
+      std::int32_t brick[kBrickEdge];
+      GVOM_UNROLL
+      for (std::int32_t k = 0; k < kBrickEdge; ++k)
+        brick[k] = first + k < n_z ? map.brick_at({lowest[0], lowest[1], lowest[2] + first + k}) : -1;
+      GVOM_UNROLL
+      for (std::int32_t k = 0; k < kBrickEdge; ++k) columns |= brick[k] >= 0 ? map.columns[brick[k]] : 0;
     }
-    return kNeverSeen;
+    return columns;
+  }
+
+  __device__ std::int32_t place(const Int3& lowest, std::int32_t column) const {
+    const std::int32_t x = wrap(lowest[0] * kBrickEdge + column / kBrickEdge, n_xy);
+    const std::int32_t y = wrap(lowest[1] * kBrickEdge + column % kBrickEdge, n_xy);
+    return y * n_xy + x;
+  }
+
+  __device__ std::int64_t stamp_of(std::int32_t map_and_one) const {
+    return map_and_one == 0 ? kNeverSeen : tick->map(map_and_one - 1).stamp_ns;
   }
 };
 

@@ -26,15 +26,16 @@ FusedMap::FusedMap(Device& device, const MapConfig& map, int min_hits, std::size
   listed_count_ = device.array<std::uint32_t>(1);
   clear();
   const auto* tick = reinterpret_cast<const FuseTick*>(tick_);
-  update_ = device.record([&] {
+  update_ = device.record([=, &device] {
     device.clear(listed_count_, sizeof *listed_count_);
-    for_each(device, static_cast<std::int32_t>(slots), ListChangedBricks{tick, listed_, listed_count_});
-    for_each_counted(device, listed_count_, kBrickEdge * kBrickEdge,
-                     UpdateBricks{tick, listed_, bricks_, reinterpret_cast<std::uint8_t*>(occupied_),
-                                  reinterpret_cast<std::uint8_t*>(free_), words_ * 8,
-                                  static_cast<std::uint32_t>(min_hits)});
-    for_each(device, static_cast<std::int32_t>(columns()),
-             UpdateLastSeen{tick, last_seen_ns_, grid_.size[0]});
+    for_each_warp(device, static_cast<std::int32_t>((slots + kLanes - 1) / kLanes),
+                  ListChangedBricks{tick, static_cast<std::int32_t>(slots), listed_, listed_count_});
+    for_each_warp_counted(device, listed_count_, UpdateBricks::kPerBrick,
+                          UpdateBricks{tick, listed_, bricks_, reinterpret_cast<std::uint8_t*>(occupied_),
+                                       reinterpret_cast<std::uint8_t*>(free_), words_ * 8,
+                                       static_cast<std::uint32_t>(min_hits)});
+    for_each_warp(device, grid_.bricks()[0] * grid_.bricks()[1],
+                  UpdateLastSeen{tick, last_seen_ns_, grid_.size[0]});
   });
 }
 

@@ -27,6 +27,7 @@ class Fusion : public FusionBackend {
   void reset() override;
   [[nodiscard]] const Window& window() const override { return window_; }
   [[nodiscard]] std::optional<DeviceCosts> last_costs() const override;
+  std::vector<KernelTime> take_kernel_times() override { return device_->take_kernel_times(); }
 
  private:
   DeviceExpected<void> settle();

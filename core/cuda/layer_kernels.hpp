@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/column.hpp"
+#include "core/cuda/lanes.hpp"
 #include "core/negative.hpp"
 #include "core/plane.hpp"
 
@@ -18,7 +19,7 @@ struct LayerTick {
 struct ReadColumns {
   const LayerTick* tick;
 
-  GVOM_HD void operator()(std::int32_t i) const {
+  __device__ void operator()(std::int32_t i) const {
     const FusedView& map = tick->map;
     write_column(read_column(map, tick->parameters, i % map.n_xy, i / map.n_xy), tick->out, i);
   }
@@ -32,39 +33,32 @@ struct DefinedHeights {
   std::int32_t words;  ///< Of a line.
 };
 
-/// For each word of each line along x, then of each along y: its bits. Neighbouring threads read
-/// neighbouring heights in the second half, their own run of 64 in the first.
+/// For each half of a word of each line, along x, then along y: its bits, a lane for each.
 struct MarkDefined {
   const LayerTick* tick;
   DefinedHeights defined;
 
-  GVOM_HD void operator()(std::int32_t i) const {
-    const std::int32_t n = tick->map.n_xy;
-    const std::int32_t half = n * defined.words;
-    if (i < half) {
-      const std::int32_t y = i / defined.words, word = i % defined.words;
-      defined.along_x[i] = bits(tick->out.height + y * n + word * 64, 1, n - word * 64);
-    } else {
-      const std::int32_t x = (i - half) % n, word = (i - half) / n;
-      defined.along_y[x * defined.words + word] =
-          bits(tick->out.height + word * 64 * n + x, n, n - word * 64);
-    }
-  }
-
- private:
-  GVOM_HD static std::uint64_t bits(const float* height, std::int32_t stride, std::int32_t count) {
-    std::uint64_t bits = 0;
-    for (std::int32_t k = 0; k < count && k < 64; ++k) {
-      const float height_m = height[k * stride];
-      bits |= std::uint64_t{height_m == height_m} << k;
-    }
-    return bits;
+  __device__ void operator()(std::int32_t i) const {
+    const std::int32_t n = tick->map.n_xy, halves = 2 * defined.words;
+    const bool along_y = i >= n * halves;
+    const std::int32_t line = i % n,
+                       half = i / n % halves;  // neighbouring warps share what they read along y
+    const std::uint32_t bits = vote([&](std::int32_t lane) {
+      const std::int32_t at = half * kLanes + lane;
+      if (at >= n) return false;
+      const float height_m = tick->out.height[along_y ? at * n + line : line * n + at];
+      return height_m == height_m;
+    });
+    // Little-endian, as all machines with CUDA are.
+    auto* const out = reinterpret_cast<std::uint32_t*>(along_y ? defined.along_y : defined.along_x);
+    in_lane(0, [&] { out[line * halves + half] = bits; });
   }
 };
 
 /// The offset of the set bit that is nearest to bit `at` of a line, the smaller one on a tie; kNoneInRow if
 /// none is set.
-GVOM_HD inline std::int16_t nearest_set_bit(const std::uint64_t* line, std::int32_t words, std::int32_t at) {
+__device__ inline std::int16_t nearest_set_bit(const std::uint64_t* line, std::int32_t words,
+                                               std::int32_t at) {
   const std::int32_t before = last_bit_up_to(line, at);
   const std::int32_t after = next_bit(line, words, at);
   if (before < 0 && after < 0) return kNoneInRow;
@@ -80,7 +74,7 @@ struct FindNearest {
   std::int16_t* along_y;
   std::int32_t n_xy;
 
-  GVOM_HD void operator()(std::int32_t i) const {
+  __device__ void operator()(std::int32_t i) const {
     const std::int32_t x = i % n_xy, y = i / n_xy, words = defined.words;
     along_x[i] = nearest_set_bit(defined.along_x + y * words, words, x);
     along_y[i] = nearest_set_bit(defined.along_y + x * words, words, y);
@@ -92,7 +86,7 @@ struct FinishColumns {
   const LayerTick* tick;
   NearestHeights nearest;
 
-  GVOM_HD void operator()(std::int32_t i) const {
+  __device__ void operator()(std::int32_t i) const {
     const LayerArrays& out = tick->out;
     const ColumnParameters& p = tick->parameters;
     const Plane plane = fit(i);
@@ -112,12 +106,12 @@ struct FinishColumns {
 
  private:
   /// The height of a column; unknown beyond the grid.
-  GVOM_HD float height(std::int32_t x, std::int32_t y) const {
+  __device__ float height(std::int32_t x, std::int32_t y) const {
     const std::int32_t n = tick->map.n_xy;
     return x < 0 || y < 0 || x >= n || y >= n ? kUnknown : tick->out.height[y * n + x];
   }
 
-  GVOM_HD Plane fit(std::int32_t i) const {
+  __device__ Plane fit(std::int32_t i) const {
     const std::int32_t x = i % tick->map.n_xy, y = i / tick->map.n_xy;
     const std::int32_t radius = tick->parameters.layers.plane_size / 2;
     PlaneSums sums{};
@@ -132,7 +126,7 @@ struct FinishColumns {
                         tick->parameters.layers.slope_threshold_rad);
   }
 
-  GVOM_HD double negative(std::int32_t i) const {
+  __device__ double negative(std::int32_t i) const {
     const std::int32_t n = tick->map.n_xy;
     const LayerArrays& out = tick->out;
     if (!seen_through(out.height[i], out.inferred_height[i])) return 0;

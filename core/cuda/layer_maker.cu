@@ -43,9 +43,9 @@ LayerMaker::LayerMaker(Device& device, const MapperConfig& config)
                                device.array<std::uint64_t>(line_words), words};
   auto* const along_x = device.array<std::int16_t>(columns());
   auto* const along_y = device.array<std::int16_t>(columns());
-  make_ = device.record([&] {
+  make_ = device.record([=, &device] {
     for_each(device, n * n, ReadColumns{tick_});
-    for_each(device, 2 * n * words, MarkDefined{tick_, defined});
+    for_each_warp(device, 2 * n * 2 * words, MarkDefined{tick_, defined});
     for_each(device, n * n, FindNearest{defined, along_x, along_y, n});
     for_each(device, n * n, FinishColumns{tick_, {along_x, along_y}});
   });

@@ -7,6 +7,7 @@ namespace gvom::cuda {
 namespace {
 
 constexpr std::size_t kAlignment = 64;
+constexpr std::size_t kRoomStep = std::size_t{1} << 20;
 
 std::size_t aligned(std::size_t bytes) {
   return (bytes + kAlignment - 1) / kAlignment * kAlignment;
@@ -33,14 +34,13 @@ std::size_t most_bytes_of(const MapConfig& map, std::size_t most_records) {
 
 MapRing::MapRing(Device& device, const MapConfig& map, std::size_t places, std::size_t most_records,
                  bool in_place)
-    : device_(device),
-      in_place_(in_place),
-      most_bytes_(most_bytes_of(map, most_records)),
-      memory_(places),
-      maps_(places) {
+    : device_(device), in_place_(in_place), most_bytes_(most_bytes_of(map, most_records)), places_(places) {
+  const Int3 bricks = grid_around(map, Eigen::Vector3d::Zero()).bricks();
+  const std::size_t stacks = static_cast<std::size_t>(bricks[0]) * static_cast<std::size_t>(bricks[1]);
+  auto* const observed = device.array<std::uint64_t>(places * stacks);
   for (std::size_t place = places; place-- > 0;) {
     free_.push_back(static_cast<std::uint32_t>(place));
-    if (!in_place) memory_[place] = device.array<std::byte>(most_bytes_);
+    places_[place].observed = observed + place * stacks;
   }
 }
 
@@ -53,24 +53,42 @@ std::uint32_t MapRing::take() {
 
 void MapRing::send(const BrickMapView& map, std::uint32_t place) {
   bytes_sent_ = 0;
+  Place& to = places_[place];
   if (in_place_) {
-    const auto seen = [this](const auto* host, std::uint32_t count) {
-      return static_cast<decltype(host)>(count > 0 ? device_.in_place(host) : nullptr);
-    };
-    const BrickMapShape& shape = map.shape;
-    maps_[place] = {map.grid,
-                    map.stamp_ns,
-                    seen(map.directory, shape.brick_slots),
-                    seen(map.lookup, shape.brick_count),
-                    seen(map.columns, shape.brick_count),
-                    seen(map.records, shape.record_count)};
-    if (maps_[place].directory == nullptr) device_.fail("a map lies outside of the pinned memory");
-    return;
+    to.map = read_in_place(map);
+  } else {
+    const bool in_one = map.bytes_in_one > 0;
+    if (!make_room(to, in_one ? map.bytes_in_one : Layout(map.shape).bytes)) return;
+    to.map = in_one ? send_in_one(map, to.memory) : send_arrays(map, to.memory);
   }
-  const bool in_one = map.bytes_in_one > 0;
-  if ((in_one ? map.bytes_in_one : Layout(map.shape).bytes) > most_bytes_)
-    return device_.fail("a map is larger than there is room for on the device");
-  maps_[place] = in_one ? send_in_one(map, memory_[place]) : send_arrays(map, memory_[place]);
+  to.map.observed = to.observed;
+}
+
+DeviceMap MapRing::read_in_place(const BrickMapView& map) {
+  const auto seen = [this](const auto* host, std::uint32_t count) {
+    return static_cast<decltype(host)>(count > 0 ? device_.in_place(host) : nullptr);
+  };
+  const BrickMapShape& shape = map.shape;
+  const DeviceMap at{map.grid,
+                     map.stamp_ns,
+                     seen(map.directory, shape.brick_slots),
+                     seen(map.lookup, shape.brick_count),
+                     seen(map.columns, shape.brick_count),
+                     seen(map.records, shape.record_count),
+                     nullptr};
+  if (at.directory == nullptr) device_.fail("a map lies outside of the pinned memory");
+  return at;
+}
+
+bool MapRing::make_room(Place& place, std::size_t bytes) {
+  if (bytes > most_bytes_) return device_.fail("a map is larger than there is room for on the device"), false;
+  if (bytes <= place.bytes) return true;
+  const std::size_t with_spare = (bytes + bytes / 4 + kRoomStep - 1) / kRoomStep * kRoomStep;
+  room_bytes_ = std::max(room_bytes_, std::min(with_spare, most_bytes_));
+  device_.release(place.memory);
+  place.memory = device_.array<std::byte>(room_bytes_);
+  place.bytes = place.memory != nullptr ? room_bytes_ : 0;
+  return place.memory != nullptr;
 }
 
 DeviceMap MapRing::send_in_one(const BrickMapView& map, std::byte* to) {
@@ -80,8 +98,8 @@ DeviceMap MapRing::send_in_one(const BrickMapView& map, std::byte* to) {
   const auto moved = [&](const auto* host) {
     return reinterpret_cast<decltype(host)>(to + (reinterpret_cast<const std::byte*>(host) - from));
   };
-  return {map.grid,          map.stamp_ns,       moved(map.directory),
-          moved(map.lookup), moved(map.columns), moved(map.records)};
+  return {map.grid,           map.stamp_ns, moved(map.directory), moved(map.lookup), moved(map.columns),
+          moved(map.records), nullptr};
 }
 
 DeviceMap MapRing::send_arrays(const BrickMapView& map, std::byte* to) {
@@ -96,7 +114,8 @@ DeviceMap MapRing::send_arrays(const BrickMapView& map, std::byte* to) {
           send(to, map.directory, map.shape.brick_slots),
           send(to + layout.lookup, map.lookup, std::size_t{map.shape.brick_count} * kBrickCells),
           send(to + layout.columns, map.columns, map.shape.brick_count),
-          send(to + layout.records, map.records, map.shape.record_count)};
+          send(to + layout.records, map.records, map.shape.record_count),
+          nullptr};
 }
 
 }  // namespace gvom::cuda

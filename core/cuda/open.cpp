@@ -36,6 +36,7 @@ DeviceExpected<OpenBackend<FusionBackend>> open_fusion(const FusionSetup& setup)
   auto device = Device::open();
   if (!device) return tl::make_unexpected(device.error());
   Device& opened = **device;
+  if (setup.times_kernels) opened.time_kernels();
   std::string maps = reach(opened, setup.shared);
   const bool in_place = reads_in_place(opened, setup.shared);
   if (in_place) maps = "maps in place";
@@ -49,6 +50,7 @@ DeviceExpected<OpenBackend<VoxelizerBackend>> open_voxelizer(const VoxelizerSetu
   auto device = Device::open();
   if (!device) return tl::make_unexpected(device.error());
   Device& opened = **device;
+  if (setup.times_kernels) opened.time_kernels();
   const std::string details = describe(opened.info()) + ": " + reach(opened, setup.shared);
   auto backend = std::make_unique<Voxelizer>(std::move(*device), setup);
   if (const auto ready = opened.wait(); !ready) return tl::make_unexpected(ready.error());

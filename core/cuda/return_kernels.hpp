@@ -1,6 +1,7 @@
 // From returns to counted voxels (R2..R5), return by return.
 #pragma once
 
+#include "core/cell.hpp"
 #include "core/cuda/atomics.hpp"
 #include "core/cuda/device_map.hpp"
 #include "core/returns.hpp"
@@ -28,7 +29,7 @@ struct CastReturn {
   const Return* returns;
   const SensorPose* poses;  ///< By Return::time_index.
 
-  GVOM_HD void operator()(std::int32_t i) const {
+  __device__ void operator()(std::int32_t i) const {
     const Return r = returns[i];
     const Verdict verdict = filter.judge(r);
     add_one(counters.verdicts + static_cast<std::uint32_t>(verdict));
@@ -52,7 +53,7 @@ struct CastReturn {
 
  private:
   /// Up to the ray's end, or to where it leaves the grid for good.
-  GVOM_HD void count_passes(const std::int64_t (&from)[3], const std::int64_t (&to)[3]) const {
+  __device__ void count_passes(const std::int64_t (&from)[3], const std::int64_t (&to)[3]) const {
     bool entered = false;
     walk_ray(from, to, [this, &entered](std::int32_t x, std::int32_t y, std::int32_t z) {
       if (!inside(x, y, z)) return !entered;
@@ -62,16 +63,16 @@ struct CastReturn {
     });
   }
 
-  GVOM_HD bool inside(std::int32_t x, std::int32_t y, std::int32_t z) const {
+  __device__ bool inside(std::int32_t x, std::int32_t y, std::int32_t z) const {
     const Int3& n = counters.grid.size;
     return x >= 0 && x < n[0] && y >= 0 && y < n[1] && z >= 0 && z < n[2];
   }
 
   /// Index of a voxel's counters; its brick counts from now on. All who touch a brick write the same.
-  GVOM_HD std::size_t touch(std::int32_t x, std::int32_t y, std::int32_t z) const {
+  __device__ std::size_t touch(std::int32_t x, std::int32_t y, std::int32_t z) const {
     const Int3& n = counters.bricks.bricks;
     const std::uint32_t brick = brick_slot(x >> 3, y >> 3, z >> 3, n[0], n[1]);
-    counters.touched[brick] = 1;
+    mark(counters.touched + brick);
     return std::size_t{brick} * kBrickCells + cell_in_brick(x, y, z);
   }
 };
@@ -81,7 +82,7 @@ struct ClearTouched {
   DenseBricks bricks;
   const std::uint8_t* touched;
 
-  GVOM_HD void operator()(std::int32_t i) const {
+  __device__ void operator()(std::int32_t i) const {
     if (touched[i / 64] == 0) return;
     const std::size_t begin = static_cast<std::size_t>(i) * kBrickEdge;
     Eight<std::uint32_t> none;

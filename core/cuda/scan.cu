@@ -14,6 +14,7 @@ Scan::Scan(Device& device, std::size_t count) : device_(device), count_(count) {
 
 void Scan::exclusive_sum(const std::uint64_t* values, std::uint64_t* starts) {
   if (device_.failed()) return;
+  device_.begin_kernel("running sum");
   device_.note_launch(cub::DeviceScan::ExclusiveSum(scratch_, scratch_bytes_, values, starts, count_,
                                                     static_cast<cudaStream_t>(device_.stream())),
                       2);

@@ -11,6 +11,9 @@ namespace {
 
 constexpr std::int32_t kColumns = kBrickEdge * kBrickEdge;
 constexpr std::size_t kUsualPoses = 4096;
+// Returns that are sent at a time: while the device works on them the next are copied to where it fetches
+// them.
+constexpr std::size_t kBatch = 16384;
 
 }  // namespace
 
@@ -28,8 +31,12 @@ Voxelizer::Voxelizer(std::unique_ptr<Device> device, const VoxelizerSetup& setup
       verdicts_(device_->array<std::uint32_t>(kVerdicts)),
       verdicts_here_(device_->pinned_array<std::uint32_t>(kVerdicts)),
       returns_(device_->array<Return>(most_returns_)),
+      staged_returns_(device_->pinned_array<Return>(most_returns_)),
       writer_(*device_, setup.map, most_returns_) {
   make_room_for_poses(kUsualPoses);
+  device_->clear(bricks_.hits, std::size_t{slots_} * kBrickCells * sizeof *bricks_.hits);
+  device_->clear(bricks_.passes, std::size_t{slots_} * kBrickCells * sizeof *bricks_.passes);
+  device_->clear(touched_, slots_);
   for_each(*device_, static_cast<std::int32_t>(slots_ * kBrickCells),
            Fill<float>{bricks_.min_height_m, kNoHeight_m});
 }
@@ -78,13 +85,23 @@ void Voxelizer::send_poses(const std::vector<Pose>& T_odom_base, const Grid& gri
   device_->upload(poses_, staged_poses_, T_odom_base.size() * sizeof *poses_);
 }
 
-// As many returns at a time as there is room for.
+// Out of pinned memory, batch by batch. A sweep may have more returns than there is room for: then the device
+// must have read the first ones before others take their place.
 void Voxelizer::cast(const Sweep& sweep, const Grid& grid) {
-  const CastReturn cast{{grid, bricks_, touched_, verdicts_}, filter_, returns_, poses_};
-  for (std::size_t first = 0; first < sweep.returns.size(); first += most_returns_) {
-    const std::size_t count = std::min(most_returns_, sweep.returns.size() - first);
-    device_->upload(returns_, sweep.returns.data() + first, count * sizeof *returns_);
-    for_each(*device_, static_cast<std::int32_t>(count), cast);
+  std::size_t room = 0;
+  for (std::size_t first = 0; first < sweep.returns.size();) {
+    if (room == most_returns_) {
+      static_cast<void>(device_->wait());
+      room = 0;
+    }
+    if (device_->failed()) return;
+    const std::size_t count = std::min({kBatch, most_returns_ - room, sweep.returns.size() - first});
+    std::copy_n(sweep.returns.data() + first, count, staged_returns_ + room);
+    device_->upload(returns_ + room, staged_returns_ + room, count * sizeof *returns_);
+    for_each(*device_, static_cast<std::int32_t>(count),
+             CastReturn{{grid, bricks_, touched_, verdicts_}, filter_, returns_ + room, poses_});
+    first += count;
+    room += count;
   }
 }
 

@@ -21,6 +21,7 @@ class Voxelizer : public VoxelizerBackend {
                                       const Grid& grid) override;
   DeviceExpected<void> write(const BrickMapArrays& out) override;
   [[nodiscard]] const FilterCounts& filter_counts() const override { return filter_counts_; }
+  std::vector<KernelTime> take_kernel_times() override { return device_->take_kernel_times(); }
 
  private:
   void forget();
@@ -38,6 +39,7 @@ class Voxelizer : public VoxelizerBackend {
   std::uint32_t* verdicts_;
   std::uint32_t* verdicts_here_;  // pinned
   Return* returns_;
+  Return* staged_returns_;  // pinned
   std::size_t most_poses_ = 0;
   SensorPose* poses_ = nullptr;
   SensorPose* staged_poses_ = nullptr;  // pinned

@@ -1,4 +1,4 @@
-// gvom-bench --gpu from end to end, on the serial device.
+// gvom-bench --gpu from end to end, on the fake device.
 #include <sys/wait.h>
 
 #include <catch2/catch.hpp>
@@ -41,7 +41,7 @@ TEST_CASE("the GPU is measured beside the CPU") {
   REQUIRE(code == 0);
   const Json run = Json::parse(contents(json));
   CHECK(run.at("sweeps") == 10);
-  CHECK(run.at("device").get<std::string>().find("serial device") == 0);
+  CHECK(run.at("device").get<std::string>().find("fake device") == 0);
   CHECK(run.at("command").get<std::string>().find("gvom-bench --gpu --quick") == 0);
   for (const char* rate : {"to_device", "to_host", "within_device"})
     CHECK(run.at("copy_bytes_per_s").at(rate).get<double>() > 0);
@@ -73,7 +73,7 @@ TEST_CASE("a device that cannot be used is no figure but exit 69 and its words")
   const TemporaryFolder folder;
   const std::string log = folder.path() + "/log";
   CHECK(bench("--gpu --quick --repeats 1", log, "GVOM_SERIAL_DEVICE_FAIL_AT=100") == 69);
-  CHECK(contents(log) == "gvom-bench: an injected fault of the serial device\n");
+  CHECK(contents(log) == "gvom-bench: cudaStreamSynchronize: an illegal memory access was encountered\n");
 }
 
 TEST_CASE("a wrong command line is exit 64") {

@@ -20,6 +20,10 @@ class Drive {
   bool step();
   /// What it said.
   [[nodiscard]] const std::string& failure() const { return failure_; }
+  /// The last layers, all arrays.
+  [[nodiscard]] std::string layer_bytes() const {
+    return {reinterpret_cast<const char*>(layers_.height), layers_.bytes_in_one};
+  }
   [[nodiscard]] std::optional<DeviceCosts> costs() const { return fuser_->backend().last_costs(); }
 
  private:

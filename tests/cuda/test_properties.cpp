@@ -1,5 +1,5 @@
 // Random drives on the CUDA back end give the oracle's bits: 1,000 sweeps and more of several lidars, with
-// windows that slide and grids that move. On a GPU, or on the serial device.
+// windows that slide and grids that move. On a GPU, or on the fake device.
 #include <catch2/catch.hpp>
 
 #include "tests/core/race.hpp"

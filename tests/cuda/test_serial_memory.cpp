@@ -1,22 +1,19 @@
-// How the CUDA back end deals with the host's memory and with a device that fails: on the serial device,
-// which can be told to.
+// How the CUDA back end deals with the host's memory: on the fake device, which can be told to.
 #include <catch2/catch.hpp>
+#include <cstdint>
 #include <memory>
 #include <string>
-#include <utility>
 
 #include "core/open_backend.hpp"
 #include "tests/cuda/drive.hpp"
 #include "tests/cuda/segment.hpp"
 #include "tests/cuda/twins.hpp"
-#include "tests/serial_device/serial_device.hpp"
+#include "tests/fake_cuda/fake_cuda.hpp"
 
 namespace gvom::test {
 namespace {
 
-namespace serial = cuda::serial;
-
-// Tells the serial device something for as long as it lives.
+// Tells the fake device something for as long as it lives.
 struct Told {
   explicit Told(void (*tell)(bool)) : tell_(tell) { tell_(true); }
   ~Told() { tell_(false); }
@@ -25,57 +22,74 @@ struct Told {
 
 TEST_CASE(
     "CUDA: a device that shares the host's memory reads maps in place, for as long as they may be read") {
-  const Told shares(serial::share_host_memory);
+  const Told shares(fake_cuda::share_host_memory);
   for (std::uint64_t seed = 1; seed <= 6; ++seed)
     CHECK(run_twins({64, 32, 30, 300, false}, 6000 + seed).added > 5);
 }
 
 TEST_CASE("CUDA: where memory cannot be pinned copies are staged, and the details say so") {
-  const Told refuses(serial::refuse_to_pin);
+  const Told refuses(fake_cuda::refuse_to_pin);
   CHECK(run_twins({64, 32, 30, 300, false}, 6100).added > 5);
   Segment segment(1 << 20);
   const auto opened = open_fusion(Backend::cuda, {MapperConfig{}, 1, 100, segment.memory()});
   REQUIRE(opened);
   CHECK(opened->name == "cuda");
   CHECK(opened->details.find("staged copies") != std::string::npos);
-  CHECK(opened->details.find("told to refuse") != std::string::npos);
+  CHECK(opened->details.find("not supported") != std::string::npos);
 }
 
-TEST_CASE("CUDA: a steady tick takes no memory, always the same kernels, and waits once") {
+TEST_CASE(
+    "CUDA: a steady tick takes no memory, always the same kernels, waits once and sends what is pinned") {
   const auto drive = Drive::open(Backend::cuda).value();
   for (int i = 0; i < 20; ++i) REQUIRE(drive->step());
-  const std::uint64_t before = serial::allocations();
+  const fake_cuda::Counts before = fake_cuda::counts();
   for (int i = 0; i < 200; ++i) {
-    const std::uint64_t waits = serial::waits();
+    const std::uint64_t waits = fake_cuda::counts().waits;
     REQUIRE(drive->step());
     REQUIRE(drive->costs()->launches == 7);
-    REQUIRE(serial::waits() == waits + 3);  // two of them are the voxelizer's: its map's size, and the map
+    // Two of them are the voxelizer's: its map's size, and the map.
+    REQUIRE(fake_cuda::counts().waits == waits + 3);
   }
-  CHECK(serial::allocations() == before);
+  CHECK(fake_cuda::counts().allocations == before.allocations);
+  CHECK(fake_cuda::counts().pageable_uploads == before.pageable_uploads);
 }
 
-TEST_CASE("CUDA: from a device's failure on nothing is given out any more, whenever it fails") {
-  const std::string kFault = "an injected fault of the serial device";
-  int failed_to_open = 0, failed_in_flight = 0;
-  for (std::uint64_t operation = 1; operation < 1000; operation += 1 + operation / 10) {
-    CAPTURE(operation);
-    serial::fail_at(operation);
-    const auto drive = Drive::open(Backend::cuda);
-    if (!drive) {
-      CHECK(drive.error().what == kFault);
-      ++failed_to_open;
-      continue;
-    }
-    int good = 0;
-    while (good < 30 && (*drive)->step()) ++good;
-    if (good == 30) continue;
-    CHECK((*drive)->failure() == kFault);
-    for (int i = 0; i < 3; ++i) CHECK_FALSE((*drive)->step());
-    ++failed_in_flight;
+TEST_CASE("CUDA: the window's maps take the memory that they need, not what they could need at most") {
+  MapperConfig config;
+  config.map = {0.4, 0.4, 256, 64};
+  config.window.buffer_size = 100;
+  const std::size_t before = fake_cuda::device_bytes();
+  const auto opened = open_fusion(Backend::cuda, {config, 1, 131'072, {}});
+  REQUIRE(opened);
+  // 256 x 256 x 64 voxels of 12 bytes, twice, and some; 100 maps of all bricks would be 1.8 GB more.
+  CHECK(fake_cuda::device_bytes() - before < std::size_t{300} << 20);
+}
+
+TEST_CASE("CUDA: what the device and its objects took is given back") {
+  REQUIRE(fake_cuda::leftovers().empty());
+  {
+    const auto drive = Drive::open(Backend::cuda).value();
+    for (int i = 0; i < 20; ++i) REQUIRE(drive->step());
+    CHECK_FALSE(fake_cuda::leftovers().empty());
   }
-  serial::fail_at(0);
-  CHECK(failed_to_open > 5);
-  CHECK(failed_in_flight > 5);
+  CHECK(fake_cuda::leftovers().empty());
+}
+
+TEST_CASE("CUDA: a sweep with more returns than there is room for is counted whole") {
+  for (const std::size_t room : {1, 7, 1000}) {
+    const VoxelizerSetup setup{{0.4, 0.4, 64, 32}, {}, {}, room, {}};
+    const auto cuda = open_voxelizer(Backend::cuda, setup).value();
+    const auto cpu = open_voxelizer(Backend::cpu, setup).value();
+    Sweep sweep;
+    sweep.times_ns = {0};
+    for (int i = 0; i < 500; ++i) sweep.returns.push_back({0.02 * i, 3 - 0.01 * i, 0.1, 0});
+    const std::vector<Pose> poses(1);
+    const Grid grid = grid_around(setup.map, Eigen::Vector3d::Zero());
+    const auto found = cuda.backend->count(sweep, poses, grid);
+    REQUIRE(found);
+    CHECK(cuda.backend->filter_counts().used == cpu.backend->filter_counts().used + 500);
+    CHECK(found->record_count == cpu.backend->count(sweep, poses, grid)->record_count);
+  }
 }
 
 }  // namespace

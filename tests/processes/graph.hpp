@@ -17,7 +17,7 @@ struct Vehicle {
   std::vector<std::string> lidars;  ///< Sorted.
   std::string folder;               ///< Working folder of the processes; their output goes there.
   std::vector<std::string> sets;    ///< KEY=VALUE on top of the file.
-  std::string variant = "";  ///< Of gvom-fusion, gvom-ingest and gvom-map: "", or "-serial" (serial device).
+  std::string variant = "";  ///< Of gvom-fusion, gvom-ingest and gvom-map: "", or "-serial" (fake device).
 
   /// --config and --set, then `more`.
   [[nodiscard]] std::vector<std::string> arguments(const std::vector<std::string>& more = {}) const;

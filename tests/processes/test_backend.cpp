@@ -40,7 +40,7 @@ void check_says(const Observer& observer, const std::string& process, const std:
   CHECK_THAT(observer.backend(process), Catch::StartsWith(words));
 }
 
-/// While one lives, programs on the serial device lose it at that operation.
+/// While one lives, programs on the fake device lose it at that operation.
 class Fault {
  public:
   explicit Fault(int operation) { ::setenv(kName, std::to_string(operation).c_str(), 1); }
@@ -58,7 +58,9 @@ void check_gave_up(Program& program, const std::string& name) {
   const int code = program.wait();
   INFO(program.output());
   CHECK(code == kTryAgain);
-  CHECK_THAT(program.output(), Contains(name + " critical: an injected fault of the serial device: leaving"));
+  CHECK_THAT(
+      program.output(),
+      Contains(name + " critical: cudaStreamSynchronize: an illegal memory access was encountered: leaving"));
 }
 
 }  // namespace
@@ -85,10 +87,10 @@ TEST_CASE("Health says which back end runs, on what, and how it reaches the memo
   REQUIRE(observer.is_up());
   graph.start_readers();
   for (const char* process : {"gvom-fusion", "gvom-ingest-front"}) {
-    check_says(observer, process, "cuda: serial device on the host");
+    check_says(observer, process, "cuda: fake device on the host");
     CHECK_THAT(observer.backend(process), Contains("maps by DMA"));
   }
-  CHECK_THAT(graph.fusion().output(), Contains("fusing 1 lidars on cuda: serial device on the host"));
+  CHECK_THAT(graph.fusion().output(), Contains("fusing 1 lidars on cuda: fake device on the host"));
   graph.stop();
 }
 
@@ -199,6 +201,6 @@ TEST_CASE("a device that fails in flight ends gvom-map with 69 and the reason") 
       run("gvom-map-serial", vehicle.arguments({"--out", "maps", "--backend", "cuda"}), folder.path());
   INFO(mapped.output);
   CHECK(mapped.code == kUnavailable);
-  CHECK_THAT(mapped.output, Contains("error: an injected fault of the serial device"));
+  CHECK_THAT(mapped.output, Contains("an illegal memory access was encountered"));
   CHECK(map_count(folder.path() + "/maps") > 0);
 }

@@ -1,0 +1,131 @@
+// gvom-count-traffic: what the CUDA back end's kernels read and write in a tick, on the host. A table in
+// Markdown.
+//
+// The drive: sweeps of an OS1-128 in a street, taken again and again while the vehicle goes on at 12 m/s and
+// up and down by 1.2 m/s, at 10 Hz. "still": the same without going on.
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/open_backend.hpp"
+#include "tests/fake_cuda/counted/counter.hpp"
+#include "tools/benchmark/measure.hpp"
+
+namespace gvom::bench {
+namespace {
+
+constexpr int kCounted = 32;  // ticks, of which some move the grid and some do not
+constexpr std::int64_t kTick_ns = 100'000'000;
+
+struct Setting {
+  MapConfig map;
+  int window;
+  bool moving;
+};
+
+struct Tally {
+  double read_bytes = 0, written_bytes = 0;  // mean of the ticks
+  double worst_bytes = 0;                    // of one tick, read and written
+  std::uint64_t busiest_loads = 0;
+};
+
+// Moves a map with all that it saw by whole bricks.
+void move(BrickMapView& map, int tick) {
+  const double brick_m = map.grid.resolution_m[0] * kBrickEdge;
+  const auto steps = static_cast<std::int32_t>(1.2 * tick / brick_m);
+  const auto up = static_cast<std::int32_t>(0.12 * tick / (map.grid.resolution_m[2] * kBrickEdge));
+  map.grid.origin[0] += steps * kBrickEdge;
+  map.grid.origin[2] += up * kBrickEdge;
+  map.T_odom_base.position_m[0] += steps * brick_m;
+}
+
+struct Counted {
+  std::vector<std::string> order;
+  std::map<std::string, Tally> of;
+  Tally all;
+};
+
+void add(const std::vector<fake_cuda::KernelTraffic>& kernels, Counted& counted) {
+  double bytes = 0;
+  for (const fake_cuda::KernelTraffic& kernel : kernels) {
+    if (counted.of.count(kernel.name) == 0) counted.order.push_back(kernel.name);
+    for (Tally* tally : {&counted.of[kernel.name], &counted.all}) {
+      tally->read_bytes += static_cast<double>(kernel.read_bytes) / kCounted;
+      tally->written_bytes += static_cast<double>(kernel.written_bytes) / kCounted;
+      tally->busiest_loads = std::max(tally->busiest_loads, kernel.busiest_loads);
+    }
+    Tally& own = counted.of[kernel.name];
+    const auto here = static_cast<double>(kernel.read_bytes + kernel.written_bytes);
+    own.worst_bytes = std::max(own.worst_bytes, here);
+    bytes += here;
+  }
+  counted.all.worst_bytes = std::max(counted.all.worst_bytes, bytes);
+}
+
+DeviceExpected<Counted> count(const Setting& setting, const Recording& recording,
+                              const std::vector<OwnedMap>& maps) {
+  const Drive drive{recording, maps, setting.map, setting.window, kCounted};
+  DriveMemory memory(drive);
+  MapperConfig config;
+  config.map = setting.map;
+  config.window = {setting.window, 3600};
+  auto opened = open_fusion(Backend::cuda, {config, 1, 262'144, memory.whole()});
+  if (!opened) return tl::make_unexpected(opened.error());
+  const LayerArrays layers = layer_arrays(memory.layers(), drive.columns());
+  Counted counted;
+  const int first = setting.window + 4;
+  for (int tick = 0; tick < first + kCounted; ++tick) {
+    const auto k = static_cast<std::size_t>(tick);
+    BrickMapView view = copy_map(maps[recording.sweep_of_tick(k)].view, memory.map_of_tick(k));
+    view.stamp_ns = tick * kTick_ns;
+    if (setting.moving) move(view, tick);
+    if (tick >= first) fake_cuda::count_traffic();
+    const auto added = opened->backend->add({view, 0, k});
+    if (!added) return tl::make_unexpected(added.error());
+    if (const auto made = opened->backend->make_layers(layers); !made)
+      return tl::make_unexpected(made.error());
+    if (tick >= first) add(fake_cuda::take_traffic(), counted);
+  }
+  return counted;
+}
+
+void print(const std::string& place, const std::string& kernel, const Tally& tally) {
+  std::printf("| %s | %s | %.2f | %.2f | %.2f | %llu |\n", place.c_str(), kernel.c_str(),
+              tally.read_bytes * 1e-6, tally.written_bytes * 1e-6, tally.worst_bytes * 1e-6,
+              static_cast<unsigned long long>(tally.busiest_loads));
+}
+
+int run(bool whole) {
+  const Recording recording = make_street(kStreetLidars[1]);
+  std::printf(
+      "| grid, window | kernel | MB read | MB written | MB, worst tick | loads, busiest thread |\n"
+      "| --- | --- | --- | --- | --- | --- |\n");
+  for (const auto& [size_xy, size_z] : {std::pair(256, 64), std::pair(512, 128)}) {
+    MapConfig map;
+    map.size_xy = size_xy;
+    map.size_z = size_z;
+    const auto voxelized = measure_voxelizing(Backend::cpu, map, recording, 1);
+    for (const int window : {1, 8, 32, 128})
+      for (const bool moving : {false, true}) {
+        if (!whole && (window != 32 || size_xy != 256)) continue;
+        const auto counted = count({map, window, moving}, recording, voxelized->maps);
+        if (!counted) return std::fprintf(stderr, "%s\n", counted.error().what.c_str()), 1;
+        const std::string place = std::to_string(size_xy) + " x " + std::to_string(size_xy) + " x " +
+                                  std::to_string(size_z) + ", " + std::to_string(window) +
+                                  (moving ? ", moving" : ", still");
+        for (const std::string& kernel : counted->order)
+          if (window == 32) print(place, kernel, counted->of.at(kernel));
+        print(place, "all", counted->all);
+      }
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace gvom::bench
+
+int main(int count, char** values) {
+  return gvom::bench::run(count > 1 && std::string(values[1]) == "--whole");
+}
