@@ -6,14 +6,20 @@
 
 namespace gvom::cuda {
 
-/// The lookup values of a column of a map's brick.
-__device__ inline Eight<std::int32_t> read_lookup(const DeviceMap& map, std::int32_t brick,
-                                                  std::int32_t column) {
-  return read_eight(map.lookup + static_cast<std::size_t>(brick) * kBrickCells + column * kBrickEdge);
-}
+/// A brick of a map.
+struct MapBrick {
+  const std::int32_t* lookup;  ///< Of its 512 voxels.
+  const VoxelRecord* records;  ///< Of the map.
+
+  /// The lookup values of a column.
+  [[nodiscard]] __device__ Eight<std::int32_t> column(std::int32_t column) const {
+    return read_eight(lookup + column * kBrickEdge);
+  }
+};
 
 __device__ inline bool has_record(const Eight<std::int32_t>& lookup) {
   bool any = false;
+  GVOM_UNROLL
   for (int z = 0; z < kBrickEdge; ++z) any |= lookup.at[z] >= 0;
   return any;
 }
@@ -21,6 +27,7 @@ __device__ inline bool has_record(const Eight<std::int32_t>& lookup) {
 class CellColumn {
  public:
   __device__ void clear() {
+    GVOM_UNROLL
     for (int z = 0; z < kBrickEdge; ++z) hits_.at[z] = 0, passes_.at[z] = 0, min_m_.at[z] = kNoHeight_m;
     has_minima_ = true;
   }
@@ -44,52 +51,47 @@ class CellColumn {
     write_eight(bricks.min_height_m + begin, min_m_);
   }
 
-  __device__ void add(const DeviceMap& map, const Eight<std::int32_t>& lookup) {
+  __device__ void add(const MapBrick& brick, const Eight<std::int32_t>& lookup) {
+    GVOM_UNROLL
     for (int z = 0; z < kBrickEdge; ++z) {
       passes_.at[z] += free_passes(lookup.at[z]);
-      if (lookup.at[z] >= 0) add_record(map.records[lookup.at[z]], cell(z));
+      if (lookup.at[z] >= 0) add_record(brick.records[lookup.at[z]], cell(z));
     }
   }
 
-  __device__ void subtract(const DeviceMap& map, const Eight<std::int32_t>& lookup) {
+  __device__ void subtract(const MapBrick& brick, const Eight<std::int32_t>& lookup) {
+    GVOM_UNROLL
     for (int z = 0; z < kBrickEdge; ++z) {
       passes_.at[z] -= free_passes(lookup.at[z]);
-      if (lookup.at[z] >= 0 && subtract_record(map.records[lookup.at[z]], cell(z))) stale_ |= 1U << z;
+      if (lookup.at[z] >= 0 && subtract_record(brick.records[lookup.at[z]], cell(z))) stale_ |= 1U << z;
     }
   }
 
-  /// Minima that left with a map are to be looked up: now they are unknown, but for a bound.
-  __device__ void forget_stale_minima() {
-    unseen_hits_ = hits_;
-    least_m_ = min_m_;
+  /// Forgets minima that left with a map. Bit z: the voxel still has hits, so its minimum is to be looked up.
+  __device__ std::uint32_t forget_stale_minima() {
+    GVOM_UNROLL
     for (int z = 0; z < kBrickEdge; ++z) {
       if (hits_.at[z] == 0) stale_ &= ~(1U << z);
       if ((stale_ >> z & 1) != 0) min_m_.at[z] = kNoHeight_m;
     }
+    return stale_;
   }
-  [[nodiscard]] __device__ bool stale() const { return stale_ != 0; }
-
-  /// Looks stale minima up in a map. A voxel is done when all maps that hit it were seen, or none can be
-  /// lower.
-  __device__ void restore(const DeviceMap& map, const Eight<std::int32_t>& lookup) {
-    for (int z = 0; z < kBrickEdge; ++z) {
-      if (lookup.at[z] < 0 || (stale_ >> z & 1) == 0) continue;
-      const VoxelRecord& record = map.records[lookup.at[z]];
-      min_m_.at[z] = lower(min_m_.at[z], record.min_height_m);
-      unseen_hits_.at[z] -= record.hits;
-      if (unseen_hits_.at[z] == 0 || min_m_.at[z] == least_m_.at[z]) stale_ &= ~(1U << z);
-    }
+  __device__ void lower_minima(const Eight<float>& to_m) {
+    GVOM_UNROLL
+    for (int z = 0; z < kBrickEdge; ++z) min_m_.at[z] = lower(min_m_.at[z], to_m.at[z]);
   }
 
   /// Bit z: occupied, free (R8).
   [[nodiscard]] __device__ std::uint8_t occupied(std::uint32_t min_hits) const {
     unsigned bits = 0;
+    GVOM_UNROLL
     for (int z = 0; z < kBrickEdge; ++z)
       bits |= static_cast<unsigned>(is_occupied(hits_.at[z], min_hits)) << z;
     return static_cast<std::uint8_t>(bits);
   }
   [[nodiscard]] __device__ std::uint8_t free(std::uint32_t min_hits) const {
     unsigned bits = 0;
+    GVOM_UNROLL
     for (int z = 0; z < kBrickEdge; ++z)
       bits |= static_cast<unsigned>(is_free(hits_.at[z], passes_.at[z], min_hits)) << z;
     return static_cast<std::uint8_t>(bits);
@@ -101,8 +103,6 @@ class CellColumn {
   Eight<std::uint32_t> hits_;
   Eight<std::uint32_t> passes_;
   Eight<float> min_m_;
-  Eight<std::uint32_t> unseen_hits_;
-  Eight<float> least_m_;
   std::uint32_t stale_ = 0;
   bool has_minima_ = false;
 };

@@ -32,22 +32,67 @@ struct FuseTick {
 };
 static_assert(sizeof(FuseTick) % alignof(DeviceMap) == 0);
 
-/// Calls `visit(map, brick)` for those of `count` maps from `first` on that have a brick, with its index in
-/// each, until that says false.
-template <class Visit>
-__device__ void for_each_holder(const FuseTick& tick, std::int32_t first, std::int32_t count,
-                                const Int3& world_brick, Visit&& visit) {
-  for (std::int32_t begin = 0; begin < count; begin += kLanes) {
-    PerLane<std::int32_t> brick;
+/// A brick in 32 maps, a lane for each.
+class Holders {
+ public:
+  /// Looks for it in `count` maps from `first` on, at most 32.
+  __device__ Holders(const FuseTick& tick, std::int32_t first, std::int32_t count, const Int3& world_brick) {
     for_each_lane([&](std::int32_t lane) {
-      const bool is_map = begin + lane < count;
-      brick[lane] = is_map ? tick.map(first + begin + lane).brick_at(world_brick) : -1;
+      if (lane >= count) return;
+      const DeviceMap& map = tick.map(first + lane);
+      const std::int32_t brick = map.brick_at(world_brick);
+      if (brick >= 0) lookup_[lane] = map.lookup + static_cast<std::size_t>(brick) * kBrickCells;
+      records_[lane] = map.records;
     });
-    std::uint32_t holders = vote([&](std::int32_t lane) { return brick[lane] >= 0; });
-    for (; holders != 0; holders &= holders - 1) {
-      const std::int32_t lane = lowest_lane(holders);
-      if (!visit(tick.map(first + begin + lane), of_lane(brick, lane))) return;
+    holders_ = vote([&](std::int32_t lane) { return lookup_[lane] != nullptr; });
+  }
+
+  [[nodiscard]] __device__ bool any() const { return holders_ != 0; }
+
+  /// Calls `visit(MapBrick)` for those that have it.
+  template <class Visit>
+  __device__ void for_each(Visit&& visit) const {
+    for (std::uint32_t left = holders_; left != 0; left &= left - 1) {
+      const std::int32_t lane = lowest_lane(left);
+      visit(MapBrick{of_lane(lookup_, lane), of_lane(records_, lane)});
     }
+  }
+
+  /// The lowest heights of a column's voxels in any of them, of those whose bit is set.
+  [[nodiscard]] __device__ Eight<float> minima(std::int32_t column, std::uint32_t voxels) const {
+    PerLane<Eight<float>> min_m;
+    for_each_lane([&](std::int32_t lane) {
+      Eight<std::int32_t> lookup;
+      if (lookup_[lane] != nullptr) lookup = MapBrick{lookup_[lane], nullptr}.column(column);
+      GVOM_UNROLL
+      for (int z = 0; z < kBrickEdge; ++z) {
+        const bool hit = lookup_[lane] != nullptr && (voxels >> z & 1) != 0 && lookup.at[z] >= 0;
+        min_m[lane].at[z] = hit ? records_[lane][lookup.at[z]].min_height_m : kNoHeight_m;
+      }
+    });
+    Eight<float> lowest_m;
+    GVOM_UNROLL
+    for (int z = 0; z < kBrickEdge; ++z) {
+      lowest_m.at[z] = kNoHeight_m;
+      if ((voxels >> z & 1) != 0)
+        lowest_m.at[z] = lowest_of_lanes([&](std::int32_t lane) { return min_m[lane].at[z]; });
+    }
+    return lowest_m;
+  }
+
+ private:
+  PerLane<const std::int32_t*> lookup_;
+  PerLane<const VoxelRecord*> records_;
+  std::uint32_t holders_;
+};
+
+/// Calls `visit(Holders)` for all `count` maps from `first` on, 32 at a time.
+template <class Visit>
+__device__ void for_each_holders(const FuseTick& tick, std::int32_t first, std::int32_t count,
+                                 const Int3& world_brick, Visit&& visit) {
+  for (std::int32_t begin = 0; begin < count; begin += kLanes) {
+    const Holders holders(tick, first + begin, count - begin, world_brick);
+    if (holders.any()) visit(holders);
   }
 }
 
@@ -118,12 +163,24 @@ struct UpdateBricks {
   }
 
  private:
+  /// Calls `visit(lane, a map's brick, the lookup values of its column)` for those of the maps that have the
+  /// brick.
+  template <class Visit>
+  __device__ void for_each_column(std::int32_t from, std::int32_t count, const Int3& brick,
+                                  std::int32_t first, Visit&& visit) const {
+    for_each_holders(*tick, from, count, brick, [&](const Holders& holders) {
+      holders.for_each([&](const MapBrick& one) {
+        for_each_lane([&](std::int32_t lane) { visit(lane, one, one.column(first + lane)); });
+      });
+    });
+  }
+
   __device__ void sum_window(const Int3& brick, std::int32_t first, PerLane<CellColumn>& cells) const {
     for_each_lane([&](std::int32_t lane) { cells[lane].clear(); });
-    for_each_holder(*tick, 0, tick->window_maps, brick, [&](const DeviceMap& map, std::int32_t index) {
-      for_each_lane([&](std::int32_t lane) { cells[lane].add(map, read_lookup(map, index, first + lane)); });
-      return true;
-    });
+    const auto add = [&](std::int32_t lane, const MapBrick& one, const Eight<std::int32_t>& lookup) {
+      cells[lane].add(one, lookup);
+    };
+    for_each_column(0, tick->window_maps, brick, first, add);
   }
 
   // Minima are read only where a record comes or leaves.
@@ -133,36 +190,31 @@ struct UpdateBricks {
       if (has_record(lookup))
         cells[lane].read_minima(bricks, begin + static_cast<std::size_t>(lane) * kBrickEdge);
     };
-    for_each_holder(*tick, tick->added, 1, brick, [&](const DeviceMap& map, std::int32_t index) {
-      for_each_lane([&](std::int32_t lane) {
-        const Eight<std::int32_t> lookup = read_lookup(map, index, first + lane);
-        read_minima(lane, lookup);
-        cells[lane].add(map, lookup);
-      });
-      return true;
-    });
-    for_each_holder(*tick, tick->window_maps, tick->left_maps, brick,
-                    [&](const DeviceMap& map, std::int32_t index) {
-                      for_each_lane([&](std::int32_t lane) {
-                        const Eight<std::int32_t> lookup = read_lookup(map, index, first + lane);
-                        read_minima(lane, lookup);
-                        cells[lane].subtract(map, lookup);
-                      });
-                      return true;
-                    });
+    const auto add = [&](std::int32_t lane, const MapBrick& one, const Eight<std::int32_t>& lookup) {
+      read_minima(lane, lookup);
+      cells[lane].add(one, lookup);
+    };
+    const auto subtract = [&](std::int32_t lane, const MapBrick& one, const Eight<std::int32_t>& lookup) {
+      read_minima(lane, lookup);
+      cells[lane].subtract(one, lookup);
+    };
+    for_each_column(tick->added, 1, brick, first, add);
+    for_each_column(tick->window_maps, tick->left_maps, brick, first, subtract);
     restore_minima(brick, first, cells);
   }
 
-  // Looks minima that left up in the window.
+  // Looks minima that left up in the window, all its maps at once: few columns of a brick have one in a tick.
   __device__ void restore_minima(const Int3& brick, std::int32_t first, PerLane<CellColumn>& cells) const {
-    for_each_lane([&](std::int32_t lane) { cells[lane].forget_stale_minima(); });
-    const auto any_stale = [&] { return vote([&](std::int32_t lane) { return cells[lane].stale(); }) != 0; };
-    if (!any_stale()) return;
-    for_each_holder(*tick, 0, tick->window_maps, brick, [&](const DeviceMap& map, std::int32_t index) {
-      for_each_lane([&](std::int32_t lane) {
-        if (cells[lane].stale()) cells[lane].restore(map, read_lookup(map, index, first + lane));
-      });
-      return any_stale();
+    PerLane<std::uint32_t> stale;
+    for_each_lane([&](std::int32_t lane) { stale[lane] = cells[lane].forget_stale_minima(); });
+    const std::uint32_t lanes = vote([&](std::int32_t lane) { return stale[lane] != 0; });
+    if (lanes == 0) return;
+    for_each_holders(*tick, 0, tick->window_maps, brick, [&](const Holders& holders) {
+      for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
+        const std::int32_t lane = lowest_lane(left);
+        const Eight<float> min_m = holders.minima(first + lane, of_lane(stale, lane));
+        in_lane(lane, [&] { cells[lane].lower_minima(min_m); });
+      }
     });
   }
 

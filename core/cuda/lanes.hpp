@@ -70,6 +70,21 @@ template <class T>
 __device__ T of_lane(const PerLane<T>& values, std::int32_t lane) {
   return __shfl_sync(~0U, values[lane], lane);
 }
+template <class T>
+__device__ T* of_lane(const PerLane<T*>& pointers, std::int32_t lane) {
+  return reinterpret_cast<T*>(__shfl_sync(~0U, reinterpret_cast<unsigned long long>(pointers[lane]), lane));
+}
+
+/// The lowest of what `value(lane)` says, never NaN or -0.
+template <class Value>
+__device__ float lowest_of_lanes(Value&& value) {
+  float lowest = value(static_cast<std::int32_t>(threadIdx.x) % kLanes);
+  for (std::int32_t apart = kLanes / 2; apart > 0; apart /= 2) {
+    const float other = __shfl_xor_sync(~0U, lowest, apart);
+    lowest = other < lowest ? other : lowest;
+  }
+  return lowest;
+}
 
 #else
 
@@ -91,13 +106,16 @@ inline bool calls_for_warp() {
 class AsLane {
  public:
   explicit AsLane(std::int32_t lane) : own_(threadIdx.x) {
-    threadIdx.x = own_ / kLanes * kLanes + static_cast<unsigned>(lane);
+    now() = own_ / kLanes * kLanes + static_cast<unsigned>(lane);
   }
-  ~AsLane() { threadIdx.x = own_; }
+  ~AsLane() { now() = own_; }
   AsLane(const AsLane&) = delete;
   AsLane& operator=(const AsLane&) = delete;
 
  private:
+  // Volatile: who observes accesses to memory looks at it in between.
+  static volatile unsigned& now() { return threadIdx.x; }
+
   unsigned own_;
 };
 
@@ -122,6 +140,16 @@ std::uint32_t vote(Holds&& holds) {
 template <class T>
 T of_lane(const PerLane<T>& values, std::int32_t lane) {
   return values[lane];
+}
+
+template <class Value>
+float lowest_of_lanes(Value&& value) {
+  float lowest = value(0);
+  for_each_lane([&](std::int32_t lane) {
+    const float other = value(lane);
+    lowest = other < lowest ? other : lowest;
+  });
+  return lowest;
 }
 
 #endif

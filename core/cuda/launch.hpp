@@ -37,8 +37,9 @@ __global__ void __launch_bounds__(kBlock) each_warp(std::int32_t n, const Functo
   if (calls_for_warp() && this_thread() / kLanes < n) functor(this_thread() / kLanes);
 }
 
+// Three blocks of a multiprocessor: without being told, the compiler spills registers to fit a fourth.
 template <class Functor>
-__global__ void __launch_bounds__(kBlock)
+__global__ void __launch_bounds__(kBlock, 3)
     each_warp_counted(const std::uint32_t* count, std::int32_t per_item, const Functor functor) {
   const auto n = static_cast<std::int32_t>(*count) * per_item;
   if (!calls_for_warp()) return;

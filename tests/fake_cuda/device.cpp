@@ -27,7 +27,7 @@ cudaError_t cudaGetDeviceProperties(cudaDeviceProp* properties, int /*device*/) 
   FAKE_CUDA_ENTER(InCapture::allowed);
   *properties = {};
   std::strcpy(properties->name, "fake device on the host");
-  properties->multiProcessorCount = 2;
+  properties->multiProcessorCount = state().multiprocessors;
   properties->integrated = state().shares_host_memory ? 1 : 0;
   return cudaSuccess;
 }

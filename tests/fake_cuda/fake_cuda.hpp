@@ -11,6 +11,7 @@ namespace fake_cuda {
 /// The device that the next to open find.
 void share_host_memory(bool shares);  ///< As integrated GPUs do.
 void refuse_to_pin(bool refuses);     ///< cudaHostRegister says "not supported".
+void set_multiprocessors(int count);  ///< 2 unless told.
 /// What cudaGetDeviceCount says: no driver, one that is too old, no device.
 enum class Absent { nothing, driver, new_driver, device };
 void lack(Absent what);

@@ -26,6 +26,10 @@ void refuse_to_pin(bool refuses) {
   state().refuses_to_pin = refuses;
 }
 
+void set_multiprocessors(int count) {
+  state().multiprocessors = count;
+}
+
 void lack(Absent what) {
   state().absent = what;
 }

@@ -36,6 +36,7 @@ using Ranges = std::map<const std::byte*, std::size_t>;
 
 struct State {
   bool shares_host_memory = false, refuses_to_pin = false, throws = false;
+  int multiprocessors = 2;
   Absent absent = Absent::nothing;
   Order order = Order::forward;
   Observer* observer = nullptr;

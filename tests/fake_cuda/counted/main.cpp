@@ -11,6 +11,7 @@
 
 #include "core/open_backend.hpp"
 #include "tests/fake_cuda/counted/counter.hpp"
+#include "tests/fake_cuda/fake_cuda.hpp"
 #include "tools/benchmark/measure.hpp"
 
 namespace gvom::bench {
@@ -127,5 +128,6 @@ int run(bool whole) {
 }  // namespace gvom::bench
 
 int main(int count, char** values) {
+  fake_cuda::set_multiprocessors(132);  // an H100's: so many bricks are updated at once
   return gvom::bench::run(count > 1 && std::string(values[1]) == "--whole");
 }
