@@ -38,12 +38,10 @@ void FusionNode::judge() {
     words.add(fresh_ ? "the layers are %.1f s behind the packets" : "no maps: the layers are %.1f s old",
               std::chrono::duration<double>(age).count());
   if (!old || !fresh_) lateness_.describe(now, words);
-  if (!words.empty())
-    health_.set_state(ipc::HealthState::degraded, words.text());
-  else if (last_layers_ns_ == 0)
-    health_.set_state(ipc::HealthState::starting, "no maps yet");
-  else
-    health_.set_state(ipc::HealthState::ok);
+  if (words.empty() && last_layers_ns_ == 0)
+    return health_.set_state(ipc::HealthState::starting, "no maps yet");
+  if (!device_.fallback().empty()) words.add("%s", device_.fallback().c_str());
+  health_.set_state(words.empty() ? ipc::HealthState::ok : ipc::HealthState::degraded, words.text());
 }
 
 void FusionNode::send_health(std::int64_t now_ns) {

@@ -44,10 +44,12 @@ ipc::Expected<Bus> Bus::open(ipc::Runtime& runtime, const services::VehicleConfi
 }
 
 FusionNode::FusionNode(const services::VehicleConfig& config, ipc::Runtime& runtime, Bus& bus,
-                       services::Lifecycle& lifecycle, OpenBackend<FusionBackend> backend)
+                       services::Lifecycle& lifecycle, const services::DeviceTrust& trust,
+                       OpenBackend<FusionBackend> backend)
     : config_(config),
       bus_(bus),
       lifecycle_(lifecycle),
+      device_(trust),
       broker_(runtime, lifecycle),
       health_(runtime.name(), services::config_hash(config, runtime.name())),
       counters_(health_),
@@ -211,6 +213,7 @@ void FusionNode::fail(const DeviceError& error) {
   fresh_ = false;
   voxels_fresh_ = false;
   spdlog::critical("{}: leaving, to be started again", error.what);
+  device_.note_failure(error);
 }
 
 }  // namespace gvom::fusion

@@ -13,6 +13,7 @@
 #include "ipc/runtime.hpp"
 #include "ipc/waiter.hpp"
 #include "services/common/bus/join.hpp"
+#include "services/common/device_trust.hpp"
 #include "services/common/health.hpp"
 #include "services/common/lifecycle.hpp"
 #include "services/common/log.hpp"
@@ -44,7 +45,8 @@ class FusionNode {
   /// All references outlive the node. The back end reads maps where the bus holds them: it goes with the
   /// node.
   FusionNode(const services::VehicleConfig& config, ipc::Runtime& runtime, Bus& bus,
-             services::Lifecycle& lifecycle, OpenBackend<FusionBackend> backend);
+             services::Lifecycle& lifecycle, const services::DeviceTrust& trust,
+             OpenBackend<FusionBackend> backend);
   ~FusionNode();
 
   /// Until a stop (ok), or the back end fails (try_again): nothing that it made since goes out.
@@ -82,6 +84,7 @@ class FusionNode {
   const services::VehicleConfig& config_;
   Bus& bus_;
   services::Lifecycle& lifecycle_;
+  const services::DeviceTrust& device_;
   services::BrokerWatch broker_;
   services::HealthReport health_;
   FusionCounters counters_;

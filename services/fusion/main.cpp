@@ -7,6 +7,7 @@
 #include "services/common/bus/join.hpp"
 #include "services/common/bus/pool_spec.hpp"
 #include "services/common/cli.hpp"
+#include "services/common/device_trust.hpp"
 #include "services/common/lifecycle.hpp"
 #include "services/common/log.hpp"
 #include "services/fusion/fusion_node.hpp"
@@ -28,7 +29,9 @@ FusionSetup setup_of(const services::VehicleConfig& config, const HostMemory& sh
 ExitCode run(const services::VehicleConfig& config, services::Lifecycle& lifecycle) {
   auto runtime = services::join_bus("gvom-fusion", lifecycle);
   if (!runtime) return runtime.error();
-  auto backend = open_fusion(config.fusion.backend, setup_of(config, services::ready_payloads(*runtime)));
+  const services::DeviceTrust trust(config.fusion.backend, services::device_record_of(runtime->name()));
+  const FusionSetup setup = setup_of(config, services::ready_payloads(*runtime));
+  auto backend = trust.open([&](Backend which) { return open_fusion(which, setup); });
   if (!backend) {
     spdlog::error("fusion.backend cuda: {}", backend.error().what);
     return ExitCode::unavailable;
@@ -39,7 +42,7 @@ ExitCode run(const services::VehicleConfig& config, services::Lifecycle& lifecyc
     spdlog::error("{}", bus.error().message);
     return services::exit_code_of(bus.error());
   }
-  fusion::FusionNode node(config, *runtime, *bus, lifecycle, std::move(*backend));
+  fusion::FusionNode node(config, *runtime, *bus, lifecycle, trust, std::move(*backend));
   return node.run();
 }
 

@@ -47,6 +47,7 @@ IngestNode::IngestNode(const services::VehicleConfig& config, const services::Li
     : lidar_(lidar),
       bus_(bus),
       lifecycle_(lifecycle),
+      device_(equipment.trust),
       broker_(runtime, lifecycle),
       health_(runtime.name(), services::config_hash(config, runtime.name())),
       counters_(health_),
@@ -138,7 +139,7 @@ void IngestNode::drop(const Sweep& sweep, SweepLoss why) {
 void IngestNode::map_sweep(const Sweep& sweep) {
   const std::int64_t begin_ns = ipc::monotonic_ns();
   const auto shape = mapper_.count(sweep, odometry_.poses());
-  if (!shape) return fail(shape.error().what);
+  if (!shape) return fail(shape.error());
   losses_.count_placed();
   if (!publish(sweep, *shape, begin_ns)) return;
   ++counters_.mapped_sweeps;
@@ -150,10 +151,11 @@ void IngestNode::map_sweep(const Sweep& sweep) {
   services::notify_watchdog();
 }
 
-void IngestNode::fail(const std::string& what) {
+void IngestNode::fail(const SweepError& error) {
   ++counters_.backend_failures;
-  failure_ = what;
-  spdlog::critical("{}: leaving, to be started again", what);
+  failure_ = error.what;
+  spdlog::critical("{}: leaving, to be started again", error.what);
+  if (error.reason == SweepError::Reason::device) device_.note_failure({error.what});
 }
 
 bool IngestNode::publish(const Sweep& sweep, const BrickMapShape& shape, std::int64_t begin_ns) {
@@ -182,7 +184,7 @@ bool IngestNode::publish(const Sweep& sweep, const BrickMapShape& shape, std::in
   header.mono_mapped_ns = begin_ns;
   counters_.wait.record_ns(begin_ns - header.mono_received_ns);
   if (const auto written = mapper_.write(writer->arrays()); !written) {
-    fail(written.error().what);
+    fail({SweepError::Reason::device, written.error().what});
     return false;
   }
   bus_.maps.publish(std::move(*writer), sweep.stamp_ns, odometry_.epoch());
@@ -246,11 +248,10 @@ std::uint64_t IngestNode::judge(std::int64_t now_ns) {
     if (words.empty()) describe_start(words);
     const bool lost = losses_.all() > 0;
     health_.set_state(lost ? ipc::HealthState::degraded : ipc::HealthState::starting, words.text());
-  } else if (stale || !words.empty()) {
-    if (words.empty()) words.add(front_ != nullptr ? "no odometry" : "no sweeps");
-    health_.set_state(ipc::HealthState::degraded, words.text());
   } else {
-    health_.set_state(ipc::HealthState::ok);
+    if (stale && words.empty()) words.add(front_ != nullptr ? "no odometry" : "no sweeps");
+    if (!device_.fallback().empty()) words.add("%s", device_.fallback().c_str());
+    health_.set_state(words.empty() ? ipc::HealthState::ok : ipc::HealthState::degraded, words.text());
   }
   return faults;
 }

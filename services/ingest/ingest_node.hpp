@@ -13,6 +13,7 @@
 #include "ipc/runtime.hpp"
 #include "ipc/waiter.hpp"
 #include "services/common/bus/join.hpp"
+#include "services/common/device_trust.hpp"
 #include "services/common/health.hpp"
 #include "services/common/lifecycle.hpp"
 #include "services/common/log.hpp"
@@ -39,9 +40,11 @@ struct Bus {
                                  const std::string& lidar);
 };
 
-/// What was opened for the lidar: where its sweeps come from and what voxelizes them.
+/// What was opened for the lidar: where its sweeps come from and what voxelizes them. `trust` outlives the
+/// node.
 struct Equipment {
   std::unique_ptr<Source> source;
+  const services::DeviceTrust& trust;
   OpenBackend<VoxelizerBackend> backend;
 };
 
@@ -70,7 +73,7 @@ class IngestNode {
   void map_sweep(const Sweep& sweep);
   bool publish(const Sweep& sweep, const BrickMapShape& shape, std::int64_t begin_ns);
   /// The back end is lost for good, and the sweep in hand with it: this process leaves, to be started again.
-  void fail(const std::string& what);
+  void fail(const SweepError& error);
   /// Whether nothing more can come of the odometry so far.
   [[nodiscard]] bool is_settled();
   [[nodiscard]] std::int64_t odometry_stamp_ns() const;
@@ -85,6 +88,7 @@ class IngestNode {
   const services::LidarConfig& lidar_;
   Bus& bus_;
   services::Lifecycle& lifecycle_;
+  const services::DeviceTrust& device_;
   services::BrokerWatch broker_;
   services::HealthReport health_;
   IngestCounters counters_;

@@ -7,6 +7,7 @@
 #include "core/open_backend.hpp"
 #include "services/common/bus/join.hpp"
 #include "services/common/cli.hpp"
+#include "services/common/device_trust.hpp"
 #include "services/common/lifecycle.hpp"
 #include "services/common/log.hpp"
 #include "services/ingest/ingest_node.hpp"
@@ -62,7 +63,8 @@ ExitCode run(const services::VehicleConfig& config, const services::LidarConfig&
   if (!runtime) return runtime.error();
   const VoxelizerSetup setup{config.mapper.map, lidar.geometry, config.mapper.vehicle,
                              static_cast<std::size_t>(lidar.max_returns), services::ready_payloads(*runtime)};
-  auto backend = open_voxelizer(lidar.backend, setup);
+  const services::DeviceTrust trust(lidar.backend, services::device_record_of(runtime->name()));
+  auto backend = trust.open([&](Backend which) { return open_voxelizer(which, setup); });
   if (!backend) {
     spdlog::error("lidars.{}.backend cuda: {}", lidar.name, backend.error().what);
     return ExitCode::unavailable;
@@ -74,7 +76,7 @@ ExitCode run(const services::VehicleConfig& config, const services::LidarConfig&
     return services::exit_code_of(bus.error());
   }
   ingest::IngestNode node(config, lidar, *runtime, *bus, lifecycle,
-                          {std::move(*source), std::move(*backend)});
+                          {std::move(*source), trust, std::move(*backend)});
   return node.run();
 }
 

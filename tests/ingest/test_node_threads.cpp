@@ -59,9 +59,11 @@ void ingest_life(const services::VehicleConfig& config) {
   EXPECT(runtime);
   auto bus = ingest::Bus::open(*runtime, config, lidar.name);
   EXPECT(bus);
+  const services::DeviceTrust trust(lidar.backend, "");
   ingest::IngestNode node(
       config, lidar, *runtime, *bus, lifecycle,
       {std::make_unique<FastSensor>(),
+       trust,
        {std::make_unique<cpu::Voxelizer>(config.mapper.map, lidar.geometry, config.mapper.vehicle, 1000),
         "cpu", "in a test"}});
   EXPECT(node.run() == services::ExitCode::ok);

@@ -121,9 +121,11 @@ void ingest_life(const Vehicle& vehicle, Shared& shared) {
   EXPECT(runtime->prefault());
   count_allocations(shared.ingest);
   const FaultWatch faults(shared.ingest, shared.ingest_faults);
+  const services::DeviceTrust trust(lidar.backend, "");
   ingest::IngestNode node(
       config, lidar, *runtime, *bus, lifecycle,
       {std::make_unique<EndlessSource>(std::move(*recording), shared),
+       trust,
        {std::make_unique<cpu::Voxelizer>(config.mapper.map, lidar.geometry, config.mapper.vehicle, 65536),
         "cpu", "in a test"}});
   EXPECT(node.run() == services::ExitCode::ok);
@@ -139,7 +141,8 @@ void fusion_life(const Vehicle& vehicle, Shared& shared) {
   EXPECT(runtime->prefault());
   count_allocations(shared.fusion);
   const FaultWatch faults(shared.fusion, shared.fusion_faults);
-  fusion::FusionNode node(config, *runtime, *bus, lifecycle,
+  const services::DeviceTrust trust(config.fusion.backend, "");
+  fusion::FusionNode node(config, *runtime, *bus, lifecycle, trust,
                           {std::make_unique<cpu::Fusion>(config.mapper), "cpu", "in a test"});
   EXPECT(node.run() == services::ExitCode::ok);
 }
