@@ -89,7 +89,7 @@ const std::vector<VehicleRow>& vehicle_rows() {
        [](V& c) -> Field { return &c.mapper.cost.roughness_full_m2; }},
 
       {{"fusion.backend", "", Rule::choice, 0, 0, kOptional,
-        "what fuses and makes the layers; auto: a GPU if one can be used, else the CPU"},
+        "what fuses and makes the layers; auto: a GPU if one can be used and keeps working, else the CPU"},
        [](V& c) -> Field { return &c.fusion.backend; }},
       {{"fusion.rate_hz", "Hz", Rule::range, 0, 100, kOptional, "of the layers; 0: on each map"},
        [](V& c) -> Field { return &c.fusion.rate_hz; }},

@@ -56,8 +56,8 @@ struct OdometryConfig {
 
 /// `fusion.*`.
 struct FusionConfig {
-  Backend backend = Backend::automatic;  ///< What fuses and makes the layers.
-  double rate_hz = 0.0;                  ///< Layers at this rate; 0: on each map, 0 .. 100.
+  Backend backend = Backend::cpu;  ///< What fuses and makes the layers.
+  double rate_hz = 0.0;            ///< Layers at this rate; 0: on each map, 0 .. 100.
   double voxel_rate_hz =
       2.0;  ///< VoxelMap at most this often, and only if somebody reads it; 0: never, 0 .. 100.
   double missing_after_s = 0.3;  ///< A lidar without a map newer than this before the newest, 0.05 .. 60.

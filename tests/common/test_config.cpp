@@ -162,11 +162,11 @@ TEST_CASE("values out of range are refused") {
 
 TEST_CASE("a back end is chosen by its word") {
   const auto defaults = loaded(kMinimal);
-  CHECK(defaults.fusion.backend == Backend::automatic);
+  CHECK(defaults.fusion.backend == Backend::cpu);
   CHECK(defaults.lidars[0].backend == Backend::cpu);
   const auto config =
-      loaded(kMinimal + "    backend: auto\nfusion: {backend: 'cpu'}\n", {"lidars.top.backend=cuda"});
-  CHECK(config.fusion.backend == Backend::cpu);
+      loaded(kMinimal + "    backend: auto\nfusion: {backend: 'auto'}\n", {"lidars.top.backend=cuda"});
+  CHECK(config.fusion.backend == Backend::automatic);
   CHECK(config.lidars[0].backend == Backend::cuda);
   CHECK(loaded(kMinimal + "    backend: auto\n").lidars[0].backend == Backend::automatic);
 

@@ -70,7 +70,7 @@ TEST_CASE("check: a vehicle that works has no error, in words and in JSON") {
   CHECK_THAT(ended.output,
              Contains("ok       lidar front       ouster:front.pcap?meta=front.json: a sweep of "));
   CHECK_THAT(ended.output, Contains("ok       odometry          tum:odometry.tum:"));
-  CHECK_THAT(ended.output, Contains("ok       fusion.backend    auto gives cpu"));
+  CHECK_THAT(ended.output, Contains("ok       fusion.backend    cpu gives cpu: as configured"));
   const auto json = nlohmann::json::parse(
       run("gvomctl", {"check", checked.vehicle.file, "--json", "--set", "map.size_xy=128"},
           checked.folder.path())

@@ -82,7 +82,8 @@ TEST_CASE("a drive ends in the CPU's bytes when every process computes on a devi
 TEST_CASE("Health says which back end runs, on what, and how it reaches the memory") {
   const TemporaryFolder folder;
   simulated(folder.path(), 1);
-  Graph graph(with(front_only(folder.path()), {"lidars.front.backend=cuda"}, "-serial"));
+  Graph graph(
+      with(front_only(folder.path()), {"fusion.backend=auto", "lidars.front.backend=cuda"}, "-serial"));
   const Observer observer(folder.path());
   REQUIRE(observer.is_up());
   graph.start_readers();
@@ -97,7 +98,7 @@ TEST_CASE("Health says which back end runs, on what, and how it reaches the memo
 TEST_CASE("auto takes what there is and says why; cpu is as configured") {
   const TemporaryFolder folder;
   simulated(folder.path(), 1);
-  Graph graph(front_only(folder.path()));
+  Graph graph(with(front_only(folder.path()), {"fusion.backend=auto"}));
   const Observer observer(folder.path());
   REQUIRE(observer.is_up());
   graph.start_readers();
