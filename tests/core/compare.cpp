@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "core/brick_map_storage.hpp"
+#include "tools/compare/maps.hpp"
 
 namespace gvom::test {
 
@@ -31,61 +32,54 @@ std::string words(const oracle::Voxel& voxel) {
   return text("hits ", voxel.hits, " passes ", voxel.passes, " lowest ", voxel.min_height_m);
 }
 
-// One brick of a map, from its origin at (x, y, z); counts its records on.
-class BrickCheck {
+// The one form that a map of these voxels may have (R6): bricks in order of slots, only such with an observed
+// voxel, records in order of bricks and cells.
+class BrickMapOf {
  public:
-  BrickCheck(const BrickMapView& map, const oracle::VoxelBox& voxels) : map_(map), voxels_(voxels) {}
-
-  std::string check(int bx, int by, int bz) {
-    const Int3 n = map_.grid.bricks();
-    const std::int32_t brick = map_.directory[(bz * n[1] + by) * n[0] + bx];
-    if (brick != -1 && brick != bricks_) return text("brick ", brick, " where ", bricks_, " or -1 is due");
-    bool any = false;
-    std::uint64_t columns = 0;
-    for (int cell = 0; cell < kBrickCells; ++cell) {
-      const int x = bx * 8 + cell / 64, y = by * 8 + cell / 8 % 8, z = bz * 8 + cell % 8;
-      const oracle::Voxel& voxel = voxels_.local(x, y, z);
-      any |= voxel.observed();
-      if (voxel.observed()) columns |= std::uint64_t{1} << (cell / 8);
-      if (brick == -1) continue;
-      const std::string wrong =
-          check_cell(map_.lookup[std::size_t(brick) * kBrickCells + std::size_t(cell)], voxel);
-      if (!wrong.empty()) return wrong + place(x, y, z);
-    }
-    if (any != (brick != -1))
-      return text(any ? "no brick " : "an empty brick ") + place(bx * 8, by * 8, bz * 8);
-    if (brick != -1 && map_.columns[bricks_++] != columns)
-      return "columns of brick" + place(bx * 8, by * 8, bz * 8);
-    return {};
+  explicit BrickMapOf(const oracle::VoxelBox& voxels) : voxels_(voxels) {
+    const Int3 n = voxels.grid().bricks();
+    for (int bz = 0; bz < n[2]; ++bz)
+      for (int by = 0; by < n[1]; ++by)
+        for (int bx = 0; bx < n[0]; ++bx) add_brick({bx * kBrickEdge, by * kBrickEdge, bz * kBrickEdge});
   }
 
-  std::string check_counts() const {
-    const bool right =
-        map_.shape.brick_count == std::uint32_t(bricks_) && map_.shape.record_count == records_;
-    return right ? ""
-                 : text("shape says ", map_.shape.brick_count, " bricks, ", map_.shape.record_count,
-                        " records");
+  [[nodiscard]] BrickMapView view() const {
+    BrickMapView map;
+    map.shape = {std::uint32_t(directory_.size()), std::uint32_t(columns_.size()),
+                 std::uint32_t(records_.size())};
+    map.directory = directory_.data();
+    map.lookup = lookup_.data();
+    map.columns = columns_.data();
+    map.records = records_.data();
+    return map;
   }
 
  private:
-  std::string check_cell(std::int32_t lookup, const oracle::Voxel& voxel) {
-    if (voxel.hits == 0) {
-      const auto due = static_cast<std::int32_t>(-1 - std::int64_t{voxel.passes});
-      return lookup == due ? "" : text("lookup ", lookup, " where ", due, " is due");
-    }
-    if (lookup != static_cast<std::int32_t>(records_))
-      return text("record ", lookup, " where ", records_, " is due");
-    const VoxelRecord& record = map_.records[records_++];
-    const oracle::Voxel found{record.hits, record.passes, record.min_height_m};
-    const bool same = found.hits == voxel.hits && found.passes == voxel.passes &&
-                      same_bits(found.min_height_m, voxel.min_height_m);
-    return same ? "" : words(found) + ", due: " + words(voxel);
+  // The brick at `corner` from the origin.
+  void add_brick(const Int3& corner) {
+    std::uint64_t columns = 0;
+    for (int cell = 0; cell < kBrickCells; ++cell)
+      if (at(corner, cell).observed()) columns |= std::uint64_t{1} << (cell / kBrickEdge);
+    directory_.push_back(columns == 0 ? -1 : int(columns_.size()));
+    if (columns == 0) return;
+    columns_.push_back(columns);
+    for (int cell = 0; cell < kBrickCells; ++cell) add_cell(at(corner, cell));
   }
 
-  const BrickMapView& map_;
+  void add_cell(const oracle::Voxel& voxel) {
+    lookup_.push_back(voxel.hits > 0 ? int(records_.size()) : int(-1 - std::int64_t{voxel.passes}));
+    if (voxel.hits > 0) records_.push_back({voxel.hits, voxel.passes, voxel.min_height_m});
+  }
+
+  [[nodiscard]] const oracle::Voxel& at(const Int3& corner, int cell) const {
+    return voxels_.local(corner[0] + cell / 64, corner[1] + cell / 8 % 8, corner[2] + cell % 8);
+  }
+
   const oracle::VoxelBox& voxels_;
-  std::int32_t bricks_ = 0;
-  std::uint32_t records_ = 0;
+  std::vector<std::int32_t> directory_;
+  std::vector<std::int32_t> lookup_;
+  std::vector<std::uint64_t> columns_;
+  std::vector<VoxelRecord> records_;
 };
 
 std::string column_difference(const FusedView& map, const oracle::VoxelBox& voxels, int min_hits, int x,
@@ -107,30 +101,10 @@ std::string column_difference(const FusedView& map, const oracle::VoxelBox& voxe
   return {};
 }
 
-template <class T, class Same>
-std::string layer_difference(const char* name, const std::vector<T>& layer, const std::vector<T>& expected,
-                             int n, Same same) {
-  if (layer.size() != expected.size()) return text(name, ": ", layer.size(), " values");
-  for (std::size_t i = 0; i < layer.size(); ++i)
-    if (!same(layer[i], expected[i]))
-      return text(name, " is ", +layer[i], ", due: ", +expected[i], " at column (", i % std::size_t(n), ", ",
-                  i / std::size_t(n), ")");
-  return {};
-}
-
 }  // namespace
 
 std::string difference(const BrickMapView& map, const oracle::VoxelBox& voxels) {
-  const Int3 n = map.grid.bricks();
-  if (map.shape.brick_slots != std::uint32_t(n[0] * n[1] * n[2])) return "brick slots";
-  BrickCheck bricks(map, voxels);
-  for (int bz = 0; bz < n[2]; ++bz)
-    for (int by = 0; by < n[1]; ++by)
-      for (int bx = 0; bx < n[0]; ++bx) {
-        std::string wrong = bricks.check(bx, by, bz);
-        if (!wrong.empty()) return wrong;
-      }
-  return bricks.check_counts();
+  return compare::map_difference(BrickMapOf(voxels).view(), map, compare::Same::values);
 }
 
 std::string difference(const BrickMapView& map, const oracle::BufferMap& expected) {
@@ -156,23 +130,9 @@ std::string difference(const FusedView& map, const oracle::Fusion& expected, int
   return {};
 }
 
-std::string difference(const oracle::Layers& layers, const oracle::Layers& expected) {
-  using L = oracle::Layers;
-  constexpr std::pair<const char*, std::vector<float> L::*> kFloats[] = {
-      {"height", &L::height},       {"inferred_height", &L::inferred_height},
-      {"slope_x", &L::slope_x},     {"slope_y", &L::slope_y},
-      {"slope", &L::slope},         {"roughness", &L::roughness},
-      {"clearance", &L::clearance}, {"obstacle_density", &L::obstacle_density},
-      {"last_seen", &L::last_seen}, {"negative_delta", &L::negative_delta}};
-  constexpr std::pair<const char*, std::vector<std::uint8_t> L::*> kBytes[] = {
-      {"flags", &L::flags}, {"visibility", &L::visibility}, {"cost", &L::cost}};
-  std::string wrong;
-  for (const auto& [name, layer] : kFloats)
-    if (wrong.empty()) wrong = layer_difference(name, layers.*layer, expected.*layer, layers.n, same_bits);
-  for (const auto& [name, layer] : kBytes)
-    if (wrong.empty())
-      wrong = layer_difference(name, layers.*layer, expected.*layer, layers.n, std::equal_to<>());
-  return wrong;
+std::string difference(oracle::Layers layers, oracle::Layers expected) {
+  if (layers.n != expected.n) return text(layers.n, " columns a side, due: ", expected.n);
+  return compare::layers_difference(expected.arrays(), layers.arrays(), layers.n, compare::Same::values);
 }
 
 const cpu::FusedMap* cpu_map(const MapFuser& fuser) {

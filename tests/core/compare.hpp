@@ -10,7 +10,8 @@
 namespace gvom::test {
 
 /// Holds a brick map against voxels, and to the one form that it may have: bricks in order of slots, only
-/// such with an observed voxel, records in order of bricks and cells (R6).
+/// such with an observed voxel, records in order of bricks and cells (R6). In the words of
+/// tools/compare/maps.hpp, as the layers' below.
 std::string difference(const BrickMapView& map, const oracle::VoxelBox& voxels);
 
 /// The same of a buffer map, with its grid and stamp.
@@ -20,7 +21,7 @@ std::string difference(const BrickMapView& map, const oracle::BufferMap& expecte
 std::string difference(const FusedView& map, const oracle::Fusion& expected, int min_hits);
 
 /// All layers, to the bit; NaN is NaN.
-std::string difference(const oracle::Layers& layers, const oracle::Layers& expected);
+std::string difference(oracle::Layers layers, oracle::Layers expected);
 
 /// The fused map as it is exported, written to arrays of exactly the size asked for.
 std::string export_difference(MapFuser& fuser, const oracle::Fusion& expected);

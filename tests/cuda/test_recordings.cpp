@@ -1,6 +1,5 @@
 // What real lidars saw: the CUDA back end gives the bytes of the CPU, from the returns to the layers.
 #include <catch2/catch.hpp>
-#include <cstring>
 #include <memory>
 #include <string>
 #include <utility>
@@ -11,6 +10,7 @@
 #include "tests/cuda/gpu.hpp"
 #include "tests/oracle/layers.hpp"
 #include "tests/support/recordings.hpp"
+#include "tools/compare/maps.hpp"
 #include "tools/map/offline.hpp"
 
 namespace gvom::test {
@@ -67,21 +67,6 @@ services::VehicleConfig vehicle(const Recording& recording, const std::string& f
   return *config;
 }
 
-template <class T>
-bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
-}
-
-bool same_layers(const oracle::Layers& a, const oracle::Layers& b) {
-  return same_bytes(a.height, b.height) && same_bytes(a.inferred_height, b.inferred_height) &&
-         same_bytes(a.slope_x, b.slope_x) && same_bytes(a.slope_y, b.slope_y) &&
-         same_bytes(a.slope, b.slope) && same_bytes(a.roughness, b.roughness) &&
-         same_bytes(a.obstacle_density, b.obstacle_density) &&
-         same_bytes(a.negative_delta, b.negative_delta) && same_bytes(a.clearance, b.clearance) &&
-         same_bytes(a.last_seen, b.last_seen) && same_bytes(a.flags, b.flags) &&
-         same_bytes(a.visibility, b.visibility) && same_bytes(a.cost, b.cost);
-}
-
 // Sweeps that both mapped to the same bytes.
 int compare(const Recording& recording, const std::string& folder) {
   const std::string odometry = in_folder(recording.odometry, folder);
@@ -101,7 +86,7 @@ int compare(const Recording& recording, const std::string& folder) {
     oracle::Layers expected_layers(n), found_layers(n);
     REQUIRE(cpu->make_layers(expected_layers.arrays()));
     REQUIRE(cuda->make_layers(found_layers.arrays()));
-    REQUIRE(same_layers(found_layers, expected_layers));
+    REQUIRE(compare::layers_difference(expected_layers.arrays(), found_layers.arrays(), n) == "");
     ++sweeps;
   }
   REQUIRE_FALSE(cuda->next(found).value());

@@ -1,7 +1,6 @@
 #include "tests/cuda/twins.hpp"
 
 #include <catch2/catch.hpp>
-#include <cstring>
 #include <map>
 #include <memory>
 #include <utility>
@@ -12,6 +11,7 @@
 #include "core/open_backend.hpp"
 #include "tests/core/random.hpp"
 #include "tests/cuda/segment.hpp"
+#include "tools/compare/maps.hpp"
 
 namespace gvom::test {
 
@@ -19,31 +19,6 @@ namespace {
 
 constexpr std::size_t kMostReturns = 20'000;
 constexpr std::size_t kSegmentBytes = std::size_t{256} << 20;
-
-template <class T>
-bool same_bytes(const T* a, const T* b, std::size_t count) {
-  return count == 0 || std::memcmp(a, b, count * sizeof(T)) == 0;
-}
-
-bool same_map(const BrickMapView& a, const BrickMapView& b) {
-  return a.shape.brick_count == b.shape.brick_count && a.shape.record_count == b.shape.record_count &&
-         same_bytes(a.directory, b.directory, a.shape.brick_slots) &&
-         same_bytes(a.lookup, b.lookup, std::size_t{a.shape.brick_count} * kBrickCells) &&
-         same_bytes(a.columns, b.columns, a.shape.brick_count) &&
-         same_bytes(a.records, b.records, a.shape.record_count);
-}
-
-bool same_layers(const LayerArrays& a, const LayerArrays& b, std::size_t columns) {
-  return same_bytes(a.height, b.height, columns) &&
-         same_bytes(a.inferred_height, b.inferred_height, columns) &&
-         same_bytes(a.slope_x, b.slope_x, columns) && same_bytes(a.slope_y, b.slope_y, columns) &&
-         same_bytes(a.slope, b.slope, columns) && same_bytes(a.roughness, b.roughness, columns) &&
-         same_bytes(a.obstacle_density, b.obstacle_density, columns) &&
-         same_bytes(a.negative_delta, b.negative_delta, columns) &&
-         same_bytes(a.clearance, b.clearance, columns) && same_bytes(a.last_seen, b.last_seen, columns) &&
-         same_bytes(a.flags, b.flags, columns) && same_bytes(a.visibility, b.visibility, columns) &&
-         same_bytes(a.cost, b.cost, columns);
-}
 
 class Twins {
  public:
@@ -89,7 +64,7 @@ class Twins {
     REQUIRE(cpu.write(segment_.loan_map(*shape, view)));
     BrickMapStorage storage;
     REQUIRE(cuda.write(storage.resize(*cuda_shape)));
-    REQUIRE(same_map(view, storage.view(view.grid, 0, {})));
+    REQUIRE(compare::map_difference(view, storage.view(view.grid, 0, {})) == "");
     fuse({view, arrival.lidar, next_token_++});
   }
 
@@ -106,7 +81,7 @@ class Twins {
     const LayerArrays expected = segment_.loan_layers(n), found = segment_.loan_layers(n);
     REQUIRE(cpu_.make_layers(expected));
     REQUIRE(cuda_.make_layers(found));
-    REQUIRE(same_layers(found, expected, std::size_t(n) * std::size_t(n)));
+    REQUIRE(compare::layers_difference(expected, found, n) == "");
     segment_.give_back(expected.height);
     segment_.give_back(found.height);
     ++tally_.layers;
@@ -117,7 +92,7 @@ class Twins {
     REQUIRE(cpu_.write_voxels(expected.resize(cpu_.count_voxels().value())));
     REQUIRE(cuda_.write_voxels(found.resize(cuda_.count_voxels().value())));
     const Grid grid = cpu_.moment().grid;
-    REQUIRE(same_map(found.view(grid, 0, {}), expected.view(grid, 0, {})));
+    REQUIRE(compare::map_difference(expected.view(grid, 0, {}), found.view(grid, 0, {})) == "");
   }
 
   const Scenario& scenario_;
