@@ -41,7 +41,8 @@ void add_ticks(int window, const TickTimes& times, Report& report) {
 tl::expected<Report, Failure> measure_cpu(const Setting& setting, const Recording& recording, int repeats,
                                           bool octomap) {
   const MapConfig config;
-  const auto voxelized = measure_voxelizing(Backend::cpu, config, recording, repeats);
+  const auto voxelized = measure_voxelizing(Backend::cpu, config, recording,
+                                            static_cast<std::size_t>(repeats) * recording.sweeps.size());
   if (!voxelized) return tl::make_unexpected(Failure(voxelized.error()));
   const auto straight = measure_straight(config, recording, voxelized->maps, (repeats + 9) / 10);
   if (!straight.agree) return tl::make_unexpected(Failure("passes differ from the straight loop's"));
@@ -49,9 +50,9 @@ tl::expected<Report, Failure> measure_cpu(const Setting& setting, const Recordin
   add_ingest(*voxelized, straight, report);
   if (octomap) add_octomap(recording, report);
   for (const int window : kWindows) {
-    const Drive drive{recording, voxelized->maps, config, window, 10 * repeats};
-    DriveMemory memory(drive);
-    const auto times = measure_ticks(Backend::cpu, drive, memory);
+    const Drive drive{recording, voxelized->maps, config, window};
+    const int first = ticks_before(drive);
+    const auto times = measure_ticks(Backend::cpu, drive, {first, first + 10 * repeats});
     if (!times) return tl::make_unexpected(Failure(times.error()));
     add_ticks(window, *times, report);
   }

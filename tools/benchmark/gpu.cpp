@@ -1,70 +1,87 @@
 #include "tools/benchmark/gpu.hpp"
 
-#include <cstring>
-
 #include "tools/benchmark/text.hpp"
+#include "tools/compare/maps.hpp"
 
 namespace gvom::bench {
 
 namespace {
+
+constexpr int kComparedTicks = 4;
 
 struct Plan {
   std::vector<MapConfig> grids;
   std::vector<int> windows;
 };
 
-Plan plan_of(bool quick) {
+Plan plan_of(const GpuSetting& setting) {
   const auto grid = [](int size_xy, int size_z) {
     MapConfig config;
     config.size_xy = size_xy;
     config.size_z = size_z;
     return config;
   };
-  if (quick) return {{grid(64, 32)}, {2}};
-  return {{grid(256, 64), grid(512, 64), grid(512, 128)}, {1, 8, 32, 128}};
+  if (setting.quick) return {{grid(64, 32)}, {2}};
+  Plan plan{{grid(256, 64), grid(512, 128)}, {1, 8, 32, 128}};
+  plan.grids.resize(std::min(plan.grids.size(), static_cast<std::size_t>(setting.grids)));
+  return plan;
 }
 
 tl::unexpected<Failure> unavailable(const DeviceError& error) {
   return tl::make_unexpected(Failure(error));
 }
 
-bool same_maps(const VoxelizingTimes& a, const VoxelizingTimes& b) {
-  for (std::size_t i = 0; i < a.maps.size(); ++i) {
-    const BrickMapView& one = a.maps[i].view;
-    const BrickMapView& other = b.maps[i].view;
-    if (one.shape.brick_count != other.shape.brick_count ||
-        one.shape.record_count != other.shape.record_count ||
-        std::memcmp(one.directory, other.directory, one.bytes_in_one) != 0)
-      return false;
-  }
-  return true;
+tl::unexpected<Failure> differ(const std::string& what, const std::string& difference) {
+  return tl::make_unexpected(Failure("the back ends' " + what + " differ\n" + difference));
 }
 
 tl::expected<void, Failure> voxelize(const Recording& recording, int repeats, GpuComparison& result) {
-  auto cpu = measure_voxelizing(Backend::cpu, result.voxelized, recording, repeats);
+  const std::size_t sweeps = recording.sweeps.size();
+  const auto runs = [&](int of_a_repeat) {
+    return std::max(sweeps, static_cast<std::size_t>(of_a_repeat) * static_cast<std::size_t>(repeats));
+  };
+  auto cpu = measure_voxelizing(Backend::cpu, result.voxelized, recording, runs(kHostRuns));
   if (!cpu) return unavailable(cpu.error());
-  auto cuda = measure_voxelizing(Backend::cuda, result.voxelized, recording, repeats);
+  auto cuda = measure_voxelizing(Backend::cuda, result.voxelized, recording, runs(kDeviceRuns));
   if (!cuda) return unavailable(cuda.error());
-  if (!same_maps(*cpu, *cuda)) return tl::make_unexpected(Failure("the back ends' buffer maps differ"));
+  for (std::size_t i = 0; i < sweeps; ++i)
+    if (const auto words = compare::map_difference(cpu->maps[i].view, cuda->maps[i].view); !words.empty())
+      return differ(text("buffer maps of sweep %zu", i), words);
   result.cpu_voxelizing = std::move(*cpu);
   result.cuda_voxelizing = std::move(*cuda);
   return {};
 }
 
-tl::expected<TickRow, Failure> fuse(const Drive& drive) {
-  DriveMemory memory(drive);
-  auto cpu = measure_ticks(Backend::cpu, drive, memory);
+// Empty if both have the same layers.
+std::string kept_difference(const Drive& drive, std::vector<KeptLayers>& expected,
+                            std::vector<KeptLayers>& found) {
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    const auto words =
+        compare::layers_difference(layer_arrays(expected[i].bytes.data(), drive.columns()),
+                                   layer_arrays(found[i].bytes.data(), drive.columns()), drive.map.size_xy);
+    if (!words.empty()) return text("after tick %d:\n", expected[i].tick) + words;
+  }
+  return {};
+}
+
+// The CPU is slower and drives only the last part, which gives the same layers: they are those of the
+// window's maps.
+tl::expected<TickRow, Failure> fuse(const Drive& drive, int repeats) {
+  const int begin = ticks_before(drive), end = begin + kDeviceRuns * repeats;
+  const int host_ticks = kHostRuns * repeats;
+  std::vector<int> kept;
+  for (int i = 0; i < kComparedTicks; ++i) kept.push_back(end - 1 - i * host_ticks / kComparedTicks);
+  auto cpu = measure_ticks(Backend::cpu, drive, {end - host_ticks, end}, kept);
   if (!cpu) return unavailable(cpu.error());
-  const std::vector<std::byte> layers(memory.layers(), memory.layers() + memory.layers_bytes());
-  std::memset(memory.layers(), 0, memory.layers_bytes());
-  auto cuda = measure_ticks(Backend::cuda, drive, memory);
+  auto cuda = measure_ticks(Backend::cuda, drive, {begin, end}, kept);
   if (!cuda) {
     if (cuda.error().what.find("out of memory") == std::string::npos) return unavailable(cuda.error());
     return TickRow{drive.map, drive.window, std::move(*cpu), tl::make_unexpected(cuda.error().what)};
   }
-  if (std::memcmp(memory.layers(), layers.data(), layers.size()) != 0)
-    return tl::make_unexpected(Failure(
-        text("the back ends' layers differ, grid %s, window %d", name_of(drive.map).c_str(), drive.window)));
+  if (const auto words = kept_difference(drive, cpu->kept, cuda->kept); !words.empty())
+    return differ(text("layers of %s voxels, window %d,", name_of(drive.map).c_str(), drive.window), words);
+  cpu->kept.clear();
+  cuda->kept.clear();
   return TickRow{drive.map, drive.window, std::move(*cpu), std::move(*cuda)};
 }
 
@@ -74,17 +91,18 @@ std::string name_of(const MapConfig& grid) {
   return text("%d x %d x %d", grid.size_xy, grid.size_xy, grid.size_z);
 }
 
-tl::expected<GpuComparison, Failure> compare_with_gpu(const Recording& recording, int repeats, bool quick) {
+tl::expected<GpuComparison, Failure> compare_with_gpu(const Recording& recording, const GpuSetting& setting) {
   const auto rates = cuda::measure_copies();
   if (!rates) return unavailable(rates.error());
-  const Plan plan = plan_of(quick);
+  const Plan plan = plan_of(setting);
   GpuComparison result{*rates, plan.grids.front(), {}, {}, {}};
-  if (const auto done = voxelize(recording, repeats, result); !done) return tl::make_unexpected(done.error());
+  if (const auto done = voxelize(recording, setting.repeats, result); !done)
+    return tl::make_unexpected(done.error());
   for (const MapConfig& grid : plan.grids) {
-    const auto voxelized = measure_voxelizing(Backend::cpu, grid, recording, 1);
+    const auto voxelized = measure_voxelizing(Backend::cpu, grid, recording, recording.sweeps.size());
     if (!voxelized) return unavailable(voxelized.error());
     for (const int window : plan.windows) {
-      auto row = fuse({recording, voxelized->maps, grid, window, 10 * repeats});
+      auto row = fuse({recording, voxelized->maps, grid, window}, setting.repeats);
       if (!row) return tl::make_unexpected(row.error());
       result.rows.push_back(std::move(*row));
     }

@@ -12,6 +12,17 @@
 
 namespace gvom::bench {
 
+// Ticks, and sweeps, of a repeat: the CPU is there for its bytes and to be compared with, and slower.
+inline constexpr int kDeviceRuns = 20;
+inline constexpr int kHostRuns = 4;
+
+/// What of it is measured.
+struct GpuSetting {
+  int repeats = 20;
+  int grids = 2;       ///< The first so many: 256 x 256 x 64, 512 x 512 x 128.
+  bool quick = false;  ///< One small grid and window instead of all.
+};
+
 /// "256 x 256 x 64".
 std::string name_of(const MapConfig& grid);
 
@@ -21,6 +32,9 @@ struct TickRow {
   int window;
   TickTimes cpu;
   tl::expected<TickTimes, std::string> cuda;  ///< Error: it does not fit into the device's memory.
+
+  /// In a tick, the mean of as many as there are.
+  [[nodiscard]] double bricks_entering() const { return (cuda ? *cuda : cpu).bricks_entering; }
 };
 
 struct GpuComparison {
@@ -31,8 +45,8 @@ struct GpuComparison {
   std::vector<TickRow> rows;
 };
 
-/// @param quick one small grid and window instead of all
-/// Errors: `unavailable` if there is no usable GPU, in the driver's words; `internal` if the results differ.
-tl::expected<GpuComparison, Failure> compare_with_gpu(const Recording& recording, int repeats, bool quick);
+/// Errors: `unavailable` if there is no usable GPU, in the driver's words; `internal` if the results differ:
+/// which arrays, where, by what.
+tl::expected<GpuComparison, Failure> compare_with_gpu(const Recording& recording, const GpuSetting& setting);
 
 }  // namespace gvom::bench

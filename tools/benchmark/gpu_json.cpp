@@ -26,7 +26,9 @@ Json json_of(const TickTimes& times) {
 
 // The device's stages in place of the host's.
 Json json_of(const TickTimes& times, const DeviceTimes& device, const cuda::CopyRates& rates) {
-  Json json{{"tick", json_of(times.both)}, {"launches", device.launches}, {"device", device.details}};
+  Json json{{"tick", json_of(times.both)},     {"floor_ms", floor_ms(device, rates)},
+            {"launches", device.launches},     {"bytes_up", device.bytes_up},
+            {"bytes_down", device.bytes_down}, {"device", device.details}};
   for (const Stage& stage : stages_of(device, rates)) {
     json[stage.name] = json_of(stage.times);
     json[stage.name]["least_bytes"] = stage.least_bytes;
@@ -36,7 +38,10 @@ Json json_of(const TickTimes& times, const DeviceTimes& device, const cuda::Copy
 }
 
 Json json_of(const TickRow& row, const cuda::CopyRates& rates) {
-  Json json{{"grid", json_of(row.map)}, {"window", row.window}, {"cpu", json_of(row.cpu)}};
+  Json json{{"grid", json_of(row.map)},
+            {"window", row.window},
+            {"bricks_entering", row.bricks_entering()},
+            {"cpu", json_of(row.cpu)}};
   json["cuda"] =
       row.cuda ? json_of(*row.cuda, *row.cuda->device, rates) : Json{{"does_not_fit", row.cuda.error()}};
   return json;

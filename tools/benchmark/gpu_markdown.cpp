@@ -1,23 +1,11 @@
 #include "tools/benchmark/gpu_report.hpp"
 #include "tools/benchmark/gpu_stages.hpp"
+#include "tools/benchmark/gpu_words.hpp"
 #include "tools/benchmark/text.hpp"
 
 namespace gvom::bench {
 
 namespace {
-
-std::string times(const Samples& samples) {
-  return text("%.3f / %.3f", samples.quantile_ms(0.5), samples.quantile_ms(0.99));
-}
-
-double ratio(const Samples& samples, const Samples& other) {
-  return samples.quantile_ms(0.5) / other.quantile_ms(0.5);
-}
-
-// Null where the row did not fit.
-const DeviceTimes* device_of(const TickRow& row) {
-  return row.cuda ? &*row.cuda->device : nullptr;
-}
 
 const std::string& device_name(const GpuComparison& comparison) {
   return comparison.cuda_voxelizing.details;
@@ -40,14 +28,15 @@ std::string place(const TickRow& row) {
 
 std::string tick_table(const GpuComparison& comparison) {
   std::string all =
-      "A tick, ms, p50 / p99: a new map in pinned memory to layers in pinned memory. Whole ticks by the "
-      "host's clock, the GPU's stages by its own; both back ends' layers were the same bytes.\n\n"
-      "| grid | window | GPU tick | upload | fuse | layers | download | launches "
+      "A tick, ms, p50 / p99: a new map in pinned memory to layers in pinned memory, on a grid that moves. "
+      "Whole ticks by the host's clock, the GPU's stages by its own; both back ends' layers were the same "
+      "bytes.\n\n"
+      "| grid | window | bricks entering | GPU tick | upload | fuse | layers | download | launches "
       "| CPU tick | fuse | layers | CPU / GPU |\n"
-      "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
+      "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
   for (const TickRow& row : comparison.rows) {
     const DeviceTimes* device = device_of(row);
-    all += place(row);
+    all += place(row) + text(" %.0f |", row.bricks_entering());
     if (device == nullptr)
       all += text(" does not fit: %s | | | | | |", row.cuda.error().c_str());
     else
@@ -63,18 +52,18 @@ std::string tick_table(const GpuComparison& comparison) {
 
 std::string bytes_table(const GpuComparison& comparison) {
   std::string all = text(
-      "The fewest bytes that a stage must move, and the share of the copy rate (upload and download: from "
-      "and to pinned memory; fuse and layers: within the device) that its median reaches with them; over "
-      "100 %% is the doing of caches.\n\n%s\n"
-      "| grid | window | upload | fuse | layers | download |\n| --- | --- | --- | --- | --- | --- |\n",
+      "The fewest bytes that a stage must move, how long that takes at the copy rate (upload and download: "
+      "from and to pinned memory; fuse and layers: within the device), and the share of this rate that its "
+      "median reaches with them; over 100 %% is the doing of caches.\n\n%s\n"
+      "| grid | window | stage | ms, p50 / p99 | MB | floor, ms | share |\n"
+      "| --- | --- | --- | --- | --- | --- | --- |\n",
       kLeastBytesWords);
   for (const TickRow& row : comparison.rows) {
     const DeviceTimes* device = device_of(row);
     if (device == nullptr) continue;
-    all += place(row);
     for (const Stage& stage : stages_of(*device, comparison.rates))
-      all += text(" %.2f MB, %.0f %% |", stage.least_bytes * 1e-6, 100 * stage.share());
-    all += "\n";
+      all += place(row) + text(" %s | %s | %.2f | %.3f | %.0f %% |\n", stage.name, times(stage.times).c_str(),
+                               stage.least_bytes * 1e-6, stage.least_ms(), 100 * stage.share());
   }
   return all + "\n";
 }

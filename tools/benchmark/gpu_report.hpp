@@ -9,6 +9,8 @@
 
 namespace gvom::bench {
 
+/// The key figures in a few lines.
+std::string summary(const Setting& setting, const GpuComparison& comparison);
 std::string markdown(const Setting& setting, const GpuComparison& comparison);
 nlohmann::ordered_json to_json(const Setting& setting, const GpuComparison& comparison);
 

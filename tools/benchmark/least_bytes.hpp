@@ -25,12 +25,14 @@ inline constexpr const char* kLeastBytesWords =
     "- fuse: of the map that came and those that left, the directory is read, and the lookup values, "
     "observed columns and records of their bricks; of the bricks that they touch, 12 bytes a voxel (hits, "
     "passes, minimum) are read and written, 2 bits a voxel (occupied, free) written; of the columns through "
-    "these, the last-seen stamp is read and written. Bricks that enter as the grid moves are left out.\n"
+    "these, the last-seen stamp is read and written. Of the bricks that enter as the grid moves, 12 bytes a "
+    "voxel are written, and what the window's other maps have there is read, but for their records.\n"
     "- layers: of each column, both masks and the stamp are read, and the minimum of its ground; each layer "
     "is written once.\n"
     "- download: the layers.\n";
 
 /// Of the tick whose map `window` took last, the newest, and whose layers are `layers`.
-LeastBytes least_bytes(const Window& window, const LayerArrays& layers);
+/// @param before the grid of the tick before it
+LeastBytes least_bytes(const Window& window, const Grid& before, const LayerArrays& layers);
 
 }  // namespace gvom::bench

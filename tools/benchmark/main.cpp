@@ -9,6 +9,7 @@
 #include "tools/benchmark/cpu.hpp"
 #include "tools/benchmark/gpu.hpp"
 #include "tools/benchmark/gpu_report.hpp"
+#include "tools/benchmark/hold.hpp"
 #include "tools/benchmark/report.hpp"
 
 namespace {
@@ -21,11 +22,12 @@ struct Options {
   std::string odometry;
   std::string lidar = kStreetLidars[0].name;
   std::string json;
+  std::string summary;
   double sensor_height_m = 1.73;
-  int repeats = 20;
   bool octomap = true;
   bool gpu = false;
-  bool quick = false;
+  bool hold_gpu = false;
+  GpuSetting setting;
 };
 
 std::vector<std::string> lidar_names() {
@@ -48,14 +50,23 @@ void add_options(CLI::App& app, Options& options) {
       ->check(CLI::IsMember(lidar_names()))
       ->excludes(sweeps)
       ->capture_default_str();
-  app.add_option("--repeats", options.repeats, "times over the recording")
+  app.add_option("--repeats", options.setting.repeats,
+                 "times over the recording; with --gpu 20 sweeps and ticks each on the GPU, 4 on the CPU")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
   app.add_flag("!--no-octomap", options.octomap, "leave OctoMap out");
   auto* gpu =
       app.add_flag("--gpu", options.gpu,
                    "the CUDA back end beside the CPU's, for several grids and windows, and nothing else");
-  app.add_flag("--quick", options.quick, "with --gpu: one small grid and window, to try it")->needs(gpu);
+  app.add_flag("--quick", options.setting.quick, "with --gpu: one small grid and window, to try it")
+      ->needs(gpu);
+  app.add_option("--grids", options.setting.grids,
+                 "with --gpu: the first so many of 256 x 256 x 64 and 512 x 512 x 128")
+      ->check(CLI::Range(1, 2))
+      ->needs(gpu)
+      ->capture_default_str();
+  app.add_flag("--hold-gpu", options.hold_gpu)->group("");  // for gpu-check alone
+  app.add_option("--summary", options.summary, "file for the key figures as text")->type_name("FILE");
   app.add_option("--json", options.json, "file for the same figures as JSON")->type_name("FILE");
 }
 
@@ -77,6 +88,7 @@ int fail(const std::string& message, ExitCode code) {
 
 struct Output {
   std::string text;
+  std::string summary;
   nlohmann::ordered_json json;
 };
 
@@ -84,13 +96,27 @@ tl::expected<Output, Failure> measure(const Options& options, const Recording& r
                                       const std::string& command) {
   const Setting setting = setting_of(recording, command);
   if (options.gpu) {
-    const auto comparison = compare_with_gpu(recording, options.repeats, options.quick);
+    const auto comparison = compare_with_gpu(recording, options.setting);
     if (!comparison) return tl::make_unexpected(comparison.error());
-    return Output{markdown(setting, *comparison), to_json(setting, *comparison)};
+    return Output{markdown(setting, *comparison), summary(setting, *comparison),
+                  to_json(setting, *comparison)};
   }
-  const auto report = measure_cpu(setting, recording, options.repeats, options.octomap);
+  const auto report = measure_cpu(setting, recording, options.setting.repeats, options.octomap);
   if (!report) return tl::make_unexpected(report.error());
-  return Output{table(*report), to_json(*report)};
+  return Output{table(*report), table(*report), to_json(*report)};
+}
+
+// True if there is nothing to write, for want of a name, too.
+bool write(const std::string& path, const std::string& content) {
+  if (path.empty()) return true;
+  std::ofstream file(path);
+  file << content;
+  file.close();
+  return static_cast<bool>(file);
+}
+
+int fail_to_write(const std::string& path) {
+  return fail(path + ": cannot be written", ExitCode::unavailable);
 }
 
 }  // namespace
@@ -104,6 +130,10 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return to_int(app.exit(error) == 0 ? ExitCode::ok : ExitCode::usage);
   }
+  if (options.hold_gpu) {
+    const auto held = hold_gpu();
+    return held ? 0 : fail(held.error().what, held.error().code);
+  }
   const auto recording = open(options);
   if (!recording) return fail(recording.error(), ExitCode::bad_data);
   std::string command = "gvom-bench";
@@ -112,9 +142,7 @@ int main(int argc, char** argv) {
   if (!output) return fail(output.error().what, output.error().code);
 
   std::fputs(output->text.c_str(), stdout);
-  if (options.json.empty()) return 0;
-  std::ofstream file(options.json);
-  file << output->json.dump(2) << "\n";
-  file.close();
-  return file ? 0 : fail(options.json + ": cannot be written", ExitCode::unavailable);
+  if (!write(options.summary, output->summary)) return fail_to_write(options.summary);
+  if (!write(options.json, output->json.dump(2) + "\n")) return fail_to_write(options.json);
+  return 0;
 }

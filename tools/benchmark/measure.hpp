@@ -7,9 +7,8 @@
 #include <vector>
 
 #include "core/backend.hpp"
+#include "tools/benchmark/drive.hpp"
 #include "tools/benchmark/least_bytes.hpp"
-#include "tools/benchmark/memory.hpp"
-#include "tools/benchmark/recording.hpp"
 #include "tools/benchmark/samples.hpp"
 
 namespace gvom::bench {
@@ -19,13 +18,13 @@ struct VoxelizingTimes {
   Samples count;
   Samples write;
   Samples both;
-  std::vector<OwnedMap> maps;  ///< One for each sweep.
+  std::vector<OwnedMap> maps;  ///< One for each sweep that came.
 };
 
-/// Returns to buffer maps, sweep by sweep, `repeats` times over the recording. A device reads the returns
-/// from pageable memory, as a decoder leaves them, and writes the map to pinned memory.
+/// Returns to buffer maps, `runs` sweeps of the recording, which begins anew at its end. A device reads the
+/// returns from pageable memory, as a decoder leaves them, and writes the map to pinned memory.
 DeviceExpected<VoxelizingTimes> measure_voxelizing(Backend which, const MapConfig& config,
-                                                   const Recording& recording, int repeats);
+                                                   const Recording& recording, std::size_t runs);
 
 struct StraightTimes {
   Samples times;             ///< The straight loop over walk_ray, its counters cleared beforehand.
@@ -47,39 +46,6 @@ struct OctomapTimes {
 /// resolution. Only in builds with OctoMap (GVOM_OCTOMAP).
 OctomapTimes measure_octomap(const Recording& recording, int repeats);
 
-/// Ticks to measure: the maps of a grid, in the order of `Recording::sweep_of_tick`, with a full window.
-struct Drive {
-  const Recording& recording;
-  const std::vector<OwnedMap>& maps;
-  MapConfig map;
-  int window;
-  int ticks;
-
-  [[nodiscard]] std::size_t columns() const {
-    return static_cast<std::size_t>(map.size_xy) * static_cast<std::size_t>(map.size_xy);
-  }
-};
-
-/// Where the maps of a drive come and its layers go: one piece of memory, which a device can reach.
-class DriveMemory {
- public:
-  explicit DriveMemory(const Drive& drive);
-
-  [[nodiscard]] HostMemory whole() { return memory_.whole(); }
-  /// Where the map of a tick lies until it has left the window.
-  [[nodiscard]] std::byte* map_of_tick(std::size_t tick) {
-    return memory_.begin() + layers_bytes_ + tick % places_ * most_map_bytes_;
-  }
-  [[nodiscard]] std::byte* layers() { return memory_.begin(); }
-  [[nodiscard]] std::size_t layers_bytes() const { return layers_bytes_; }
-
- private:
-  std::size_t layers_bytes_;
-  std::size_t most_map_bytes_;
-  std::size_t places_;
-  Memory memory_;
-};
-
 /// What a device says of its ticks, by its own clock.
 struct DeviceTimes {
   std::string details;  ///< What the back end says of itself.
@@ -88,7 +54,15 @@ struct DeviceTimes {
   Samples layers;
   Samples download;
   std::uint64_t launches = 0;  ///< The most of any tick.
-  LeastBytes least_bytes;      ///< The mean of the ticks.
+  double bytes_up = 0;         ///< The mean of the ticks, as the following.
+  double bytes_down = 0;
+  LeastBytes least_bytes;
+};
+
+/// The layers after a tick.
+struct KeptLayers {
+  int tick;
+  std::vector<std::byte> bytes;
 };
 
 /// By the clock of the host; `both` is from a new map in memory to layers in memory.
@@ -96,10 +70,14 @@ struct TickTimes {
   Samples fuse;
   Samples layers;
   Samples both;
+  double bricks_entering = 0;  ///< In each tick, the mean.
   std::optional<DeviceTimes> device;
+  std::vector<KeptLayers> kept;
 };
 
-/// The last tick's layers stay in `memory`.
-DeviceExpected<TickTimes> measure_ticks(Backend which, const Drive& drive, DriveMemory& memory);
+/// Measures a stretch of a drive.
+/// @param kept_ticks whose layers are kept, to be compared
+DeviceExpected<TickTimes> measure_ticks(Backend which, const Drive& drive, const Stretch& stretch,
+                                        const std::vector<int>& kept_ticks = {});
 
 }  // namespace gvom::bench

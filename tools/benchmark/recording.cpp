@@ -23,6 +23,13 @@ tl::expected<std::vector<Sweep>, std::string> read_sweeps(const std::string& fol
   }
 }
 
+// With one step more than there are between the sweeps.
+Eigen::Vector3d way_of_a_lap(const std::vector<Pose>& poses) {
+  if (poses.size() < 2) return Eigen::Vector3d::Zero();
+  const auto count = static_cast<double>(poses.size());
+  return (poses.back().translation_m - poses.front().translation_m) * (count / (count - 1));
+}
+
 }  // namespace
 
 tl::expected<Recording, std::string> read_recording(const std::string& folder, const std::string& odometry,
@@ -44,6 +51,7 @@ tl::expected<Recording, std::string> read_recording(const std::string& folder, c
     if (!pose) return tl::unexpected(odometry + ": no pose around a sweep of " + folder);
     recording.T_odom_base.push_back(*pose);
   }
+  recording.lap_m = way_of_a_lap(recording.T_odom_base);
   recording.sweeps = std::move(*sweeps);
   return recording;
 }

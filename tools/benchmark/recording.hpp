@@ -17,15 +17,7 @@ struct Recording {
   LidarGeometry lidar;
   std::vector<Sweep> sweeps;
   std::vector<Pose> T_odom_base;  ///< One for each sweep; all its returns are of that moment.
-
-  /// The sweep of tick `k` of an endless drive to the recording's end and back: 0, 1, .., n - 1, n - 2, ..,
-  /// 1, 0, 1, .. So the scene stays the same however many ticks there are, and the vehicle always moves.
-  [[nodiscard]] std::size_t sweep_of_tick(std::size_t k) const {
-    if (sweeps.size() == 1) return 0;
-    const std::size_t turn = sweeps.size() - 1;
-    const std::size_t place = k % (2 * turn);
-    return place <= turn ? place : 2 * turn - place;
-  }
+  Eigen::Vector3d lap_m = Eigen::Vector3d::Zero();  ///< From the first sweep to where the next lap begins.
 };
 
 /// A folder of KITTI's .bin files with its `times.txt`, and odometry (TUM, T_odom_base) that brackets it.
@@ -45,7 +37,8 @@ struct StreetLidar {
 inline constexpr StreetLidar kStreetLidars[] = {{"hdl-64", 64, 2048, -0.43, 0.035},
                                                 {"os1-128", 128, 1024, -0.393, 0.393}};
 
-/// A street that a lidar drives along: ground, walls, parked cars and poles.
+/// A street that a lidar drives along at 11.6 m/s, over bumps: ground, walls, parked cars and poles. It
+/// repeats itself after a lap.
 Recording make_street(const StreetLidar& lidar);
 
 }  // namespace gvom::bench

@@ -7,15 +7,16 @@ namespace gvom::bench {
 
 namespace {
 
-constexpr int kSweeps = 10;
+constexpr int kSweeps = 11;
 constexpr double kSensorHeight_m = 1.73;
-constexpr double kStep_m = 0.6;
+constexpr double kPeriod_m = 12.8;  // of the street, and one lap: four bricks of 0.4 m voxels
+constexpr double kBump_m = 0.3;     // up and down once in a lap: through the face between two bricks
 constexpr double kPi = 3.14159265358979323846;
 
 std::vector<Box> street_boxes() {
   std::vector<Box> boxes{{{-200, -200, -1}, {200, 200, 0}}};  // the ground
   for (int i = -10; i < 10; ++i) {
-    const double x = 12.0 * i;
+    const double x = kPeriod_m * i;
     boxes.push_back({{x, 9, 0}, {x + 10, 19, 7}});  // houses, with alleys between them
     boxes.push_back({{x + 5, -21, 0}, {x + 14, -11, 9}});
     boxes.push_back({{x + 1, 5, 0.3}, {x + 5.2, 6.8, 1.5}});  // cars
@@ -63,10 +64,12 @@ Recording make_street(const StreetLidar& lidar) {
   Recording recording;
   recording.name = std::string("a synthetic street, ") + lidar.name;
   recording.lidar.T_base_sensor.translation().z() = kSensorHeight_m;
+  recording.lap_m.x() = kPeriod_m;
   const std::vector<Box> boxes = street_boxes();
   for (int i = 0; i < kSweeps; ++i) {
     Pose pose;
-    pose.translation_m = {kStep_m * i, 0.1, 0.0};
+    const double share = static_cast<double>(i) / kSweeps;
+    pose.translation_m = {kPeriod_m * share, 0.1, kBump_m * std::sin(2 * kPi * share)};
     const Eigen::Vector3d sensor_m = pose.translation_m + Eigen::Vector3d(0, 0, kSensorHeight_m);
     recording.sweeps.push_back(sweep_from(sensor_m, lidar, boxes));
     recording.T_odom_base.push_back(pose);

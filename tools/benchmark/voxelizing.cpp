@@ -16,7 +16,7 @@ OwnedMap copy_of(const BrickMapView& map) {
 }  // namespace
 
 DeviceExpected<VoxelizingTimes> measure_voxelizing(Backend which, const MapConfig& config,
-                                                   const Recording& recording, int repeats) {
+                                                   const Recording& recording, std::size_t runs) {
   const std::uint32_t slots = grid_around(config, Eigen::Vector3d::Zero()).brick_slots();
   Memory out(map_bytes({slots, slots, static_cast<std::uint32_t>(kMostReturns)}));
   auto opened = open_voxelizer(which, {config, recording.lidar, {}, kMostReturns, out.whole()});
@@ -24,24 +24,24 @@ DeviceExpected<VoxelizingTimes> measure_voxelizing(Backend which, const MapConfi
   VoxelizerBackend& voxelizer = *opened->backend;
   VoxelizingTimes times;
   times.details = opened->details;
-  for (int repeat = 0; repeat < repeats; ++repeat)
-    for (std::size_t i = 0; i < recording.sweeps.size(); ++i) {
-      const Sweep& sweep = recording.sweeps[i];
-      const Pose& pose = recording.T_odom_base[i];
-      const Grid grid = grid_around(config, pose.translation_m);
-      const std::vector<Pose> poses(sweep.times_ns.size(), pose);
-      DeviceExpected<BrickMapShape> shape;
-      const double count_ms = time_ms([&] { shape = voxelizer.count(sweep, poses, grid); });
-      if (!shape) return tl::make_unexpected(shape.error());
-      const BrickMapArrays arrays = map_arrays(out.begin(), *shape);
-      DeviceExpected<void> written;
-      const double write_ms = time_ms([&] { written = voxelizer.write(arrays); });
-      if (!written) return tl::make_unexpected(written.error());
-      times.count.add(count_ms);
-      times.write.add(write_ms);
-      times.both.add(count_ms + write_ms);
-      if (repeat == 0) times.maps.push_back(copy_of(map_in_one({grid, 0, record_of(pose), *shape}, arrays)));
-    }
+  for (std::size_t run = 0; run < runs; ++run) {
+    const std::size_t i = run % recording.sweeps.size();
+    const Sweep& sweep = recording.sweeps[i];
+    const Pose& pose = recording.T_odom_base[i];
+    const Grid grid = grid_around(config, pose.translation_m);
+    const std::vector<Pose> poses(sweep.times_ns.size(), pose);
+    DeviceExpected<BrickMapShape> shape;
+    const double count_ms = time_ms([&] { shape = voxelizer.count(sweep, poses, grid); });
+    if (!shape) return tl::make_unexpected(shape.error());
+    const BrickMapArrays arrays = map_arrays(out.begin(), *shape);
+    DeviceExpected<void> written;
+    const double write_ms = time_ms([&] { written = voxelizer.write(arrays); });
+    if (!written) return tl::make_unexpected(written.error());
+    times.count.add(count_ms);
+    times.write.add(write_ms);
+    times.both.add(count_ms + write_ms);
+    if (run == i) times.maps.push_back(copy_of(map_in_one({grid, 0, record_of(pose), *shape}, arrays)));
+  }
   return times;
 }
 
