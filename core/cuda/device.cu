@@ -19,6 +19,20 @@ std::string words(const std::string& call, cudaError_t error) {
   return call.substr(0, call.find('(')) + ": " + cudaGetErrorString(error);
 }
 
+std::string cuda_version(int number) {
+  return std::to_string(number / 1000) + "." + std::to_string(number % 1000 / 10);
+}
+
+// Why the driver cannot be used at all: the runtime has the same words for none and for an old one.
+std::string driver_words() {
+  int speaks = 0;
+  int needed = 0;
+  if (cudaDriverGetVersion(&speaks) != cudaSuccess || speaks == 0) return "no NVIDIA driver";
+  cudaRuntimeGetVersion(&needed);
+  return "the NVIDIA driver is too old: it runs programs of CUDA " + cuda_version(speaks) +
+         ", this is one of " + cuda_version(needed);
+}
+
 struct PlayableGraph {
   cudaGraphExec_t exec = nullptr;
   std::uint64_t launches = 0;
@@ -77,7 +91,9 @@ struct Device::State {
 void Device::State::start() {
   setenv("CUDA_MODULE_LOADING", "EAGER", 0);  // kernels are loaded now, not at the first tick that needs them
   int count = 0;
-  if (!check("looking for a CUDA device", cudaGetDeviceCount(&count))) return;
+  const cudaError_t counted = cudaGetDeviceCount(&count);
+  if (counted == cudaErrorInsufficientDriver) failure = driver_words();
+  if (!check("looking for a CUDA device", counted)) return;
   if (!check("taking the first CUDA device", cudaSetDevice(0))) return;
   cudaDeviceProp properties{};
   if (!check("asking the CUDA device what it is", cudaGetDeviceProperties(&properties, 0))) return;
