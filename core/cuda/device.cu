@@ -1,7 +1,5 @@
 #include <cuda_runtime.h>
 
-#include <cxxabi.h>
-
 #include <algorithm>
 #include <array>
 #include <cstdlib>
@@ -9,6 +7,7 @@
 #include <vector>
 
 #include "core/cuda/device.hpp"
+#include "core/cuda/kernel_clock.hpp"
 
 namespace gvom::cuda {
 
@@ -39,22 +38,6 @@ struct PlayableGraph {
   std::function<void()> describe;  // in place of `exec` where kernels are timed
 };
 
-// "gvom::cuda::UpdateBricks" becomes "UpdateBricks".
-std::string plain_name(const char* type) {
-  int status = 0;
-  const std::unique_ptr<char, decltype(&std::free)> name(abi::__cxa_demangle(type, nullptr, nullptr, &status),
-                                                         &std::free);
-  const std::string whole = status == 0 ? name.get() : type;
-  const std::size_t end = whole.find('<');
-  const std::size_t colon = whole.rfind(':', end);
-  return colon == std::string::npos ? whole : whole.substr(colon + 1, end - colon - 1);
-}
-
-struct TimedKernel {
-  std::string name;
-  cudaEvent_t begin = nullptr, end = nullptr;
-};
-
 }  // namespace
 
 struct Device::State {
@@ -67,9 +50,7 @@ struct Device::State {
   std::vector<void*> pinned_ranges;
   std::vector<PlayableGraph> graphs;
   std::uint64_t launches = 0;
-  bool times_kernels = false;
-  std::vector<TimedKernel> timed;  // the first `timed_count` are of now, the others' events are used again
-  std::size_t timed_count = 0;
+  KernelClock clock;
   std::string failure;
 
   // Keeps the first error, and takes it from the runtime, which would tell it again to whoever asks next.
@@ -127,10 +108,6 @@ Device::~Device() {
   for (void* memory : state_->pinned_memory) cudaFreeHost(memory);
   for (cudaEvent_t moment : state_->moments)
     if (moment != nullptr) cudaEventDestroy(moment);
-  for (const TimedKernel& kernel : state_->timed) {
-    if (kernel.begin != nullptr) cudaEventDestroy(kernel.begin);
-    if (kernel.end != nullptr) cudaEventDestroy(kernel.end);
-  }
   if (state_->stream != nullptr) cudaStreamDestroy(state_->stream);
 }
 
@@ -204,7 +181,7 @@ void Device::clear(void* begin, std::size_t bytes) {
 
 Device::Graph Device::record(const std::function<void()>& describe) {
   PlayableGraph playable;
-  if (state_->times_kernels)
+  if (state_->clock.runs())
     playable.describe = describe;
   else
     state_->capture(describe, playable);
@@ -273,38 +250,23 @@ void* Device::stream() const {
 }
 
 void Device::time_kernels() {
-  state_->times_kernels = true;
+  state_->clock.start();
 }
 
 std::vector<KernelTime> Device::take_kernel_times() {
   std::vector<KernelTime> times;
-  for (std::size_t i = 0; i < std::exchange(state_->timed_count, 0); ++i) {
-    const TimedKernel& kernel = state_->timed[i];
-    float ms = 0;
-    if (GVOM_CUDA(cudaEventElapsedTime(&ms, kernel.begin, kernel.end)))
-      times.push_back({kernel.name, static_cast<double>(ms)});
-  }
+  GVOM_CUDA(state_->clock.take(times));
   return times;
 }
 
 void Device::begin_kernel(const char* type) {
-  if (!state_->times_kernels) return;
-  if (state_->timed_count == state_->timed.size()) {
-    TimedKernel fresh;
-    GVOM_CUDA(cudaEventCreate(&fresh.begin));
-    GVOM_CUDA(cudaEventCreate(&fresh.end));
-    state_->timed.push_back(fresh);
-  }
-  state_->timed[state_->timed_count].name = plain_name(type);
-  GVOM_CUDA(cudaEventRecord(state_->timed[state_->timed_count].begin, state_->stream));
+  if (state_->clock.runs()) GVOM_CUDA(state_->clock.begin(type, state_->stream));
 }
 
 void Device::note_launch(int error, int kernels) {
   state_->launches += static_cast<std::uint64_t>(kernels);
   state_->check("launching a kernel", static_cast<cudaError_t>(error));
-  if (!state_->times_kernels || kernels == 0) return;
-  GVOM_CUDA(cudaEventRecord(state_->timed[state_->timed_count].end, state_->stream));
-  ++state_->timed_count;
+  if (state_->clock.runs() && kernels > 0) GVOM_CUDA(state_->clock.end(state_->stream));
 }
 
 }  // namespace gvom::cuda

@@ -41,6 +41,19 @@ TEST_CASE("CUDA: from a device's failure on nothing is given out any more, whene
   CHECK(failed_in_flight > 5);
 }
 
+TEST_CASE("CUDA: no driver, an old one and no device are told apart") {
+  const auto words = [](fake_cuda::Absent what) {
+    fake_cuda::lack(what);
+    const auto opened = Drive::open(Backend::cuda);
+    fake_cuda::lack(fake_cuda::Absent::nothing);
+    return opened ? "" : opened.error().what;
+  };
+  CHECK(words(fake_cuda::Absent::driver) == "no NVIDIA driver");
+  CHECK(words(fake_cuda::Absent::new_driver) ==
+        "the NVIDIA driver is too old: it runs programs of CUDA 11.0, this is one of 13.0");
+  CHECK(words(fake_cuda::Absent::device) == "looking for a CUDA device: no CUDA-capable device is detected");
+}
+
 TEST_CASE("CUDA: a call that is refused once is told, or does no harm") {
   std::string expected;
   {

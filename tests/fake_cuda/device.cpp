@@ -18,6 +18,11 @@ cudaError_t cudaDriverGetVersion(int* version) {
   return cudaSuccess;
 }
 
+cudaError_t cudaRuntimeGetVersion(int* version) {
+  *version = 13000;
+  return cudaSuccess;
+}
+
 cudaError_t cudaSetDevice(int /*device*/) {
   FAKE_CUDA_ENTER(InCapture::allowed);
   return cudaSuccess;

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# test_gpu_check.bash SOURCE BIN: gpu-check in a bundle whose GPU is the serial device, with two planted faults: its
+# test_gpu_check.bash SOURCE BIN: gpu-check in a bundle whose GPU is the fake device, with two planted faults: its
 # verdict tells them so that nobody has to look again. And without a driver, and killed.
 set -euo pipefail
 source=$1
@@ -50,7 +50,7 @@ tell_faults() {
   verdict=$(< "$scratch/out/verdict.txt")
   [[ $(< "$scratch/said") == *"$verdict" ]] || fail "the verdict is not what it says last"
   ((${#verdict} < 12000)) || fail "the verdict has ${#verdict} characters"
-  expect '=== gpu-check: serial device on the host'
+  expect '=== gpu-check: fake device on the host'
   expect 'FAIL      map-simulated: exit code 1'
   expect $'000003/height.npy: 1 of 65536 differ\n  [0, 0]: expected '
   expect ', found 1.00000012 = 0x3f800001'

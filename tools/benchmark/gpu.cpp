@@ -12,6 +12,7 @@ constexpr int kComparedTicks = 4;
 struct Plan {
   std::vector<MapConfig> grids;
   std::vector<int> windows;
+  int kernels_window;  // at which each kernel is timed
 };
 
 Plan plan_of(const GpuSetting& setting) {
@@ -21,8 +22,8 @@ Plan plan_of(const GpuSetting& setting) {
     config.size_z = size_z;
     return config;
   };
-  if (setting.quick) return {{grid(64, 32)}, {2}};
-  Plan plan{{grid(256, 64), grid(512, 128)}, {1, 8, 32, 128}};
+  if (setting.quick) return {{grid(64, 32)}, {2}, 2};
+  Plan plan{{grid(256, 64), grid(512, 128)}, {1, 8, 32, 128}, 32};
   plan.grids.resize(std::min(plan.grids.size(), static_cast<std::size_t>(setting.grids)));
   return plan;
 }
@@ -85,6 +86,24 @@ tl::expected<TickRow, Failure> fuse(const Drive& drive, int repeats) {
   return TickRow{drive.map, drive.window, std::move(*cpu), std::move(*cuda)};
 }
 
+tl::expected<void, Failure> time_sweep_kernels(const Recording& recording, GpuComparison& result) {
+  const auto timed =
+      measure_voxelizing(Backend::cuda, result.voxelized, recording, recording.sweeps.size(), Kernels::timed);
+  if (!timed) return unavailable(timed.error());
+  result.kernels.push_back({"a sweep, " + name_of(result.voxelized), timed->kernels});
+  return {};
+}
+
+tl::expected<void, Failure> time_tick_kernels(const Drive& drive, int repeats, GpuComparison& result) {
+  const int begin = ticks_before(drive);
+  const auto timed =
+      measure_ticks(Backend::cuda, drive, {begin, begin + kKernelRuns * repeats}, {}, Kernels::timed);
+  if (!timed) return unavailable(timed.error());
+  result.kernels.push_back(
+      {text("a tick, %s, window %d", name_of(drive.map).c_str(), drive.window), timed->kernels});
+  return {};
+}
+
 }  // namespace
 
 std::string name_of(const MapConfig& grid) {
@@ -95,16 +114,23 @@ tl::expected<GpuComparison, Failure> compare_with_gpu(const Recording& recording
   const auto rates = cuda::measure_copies();
   if (!rates) return unavailable(rates.error());
   const Plan plan = plan_of(setting);
-  GpuComparison result{*rates, plan.grids.front(), {}, {}, {}};
+  GpuComparison result{*rates, plan.grids.front(), {}, {}, {}, {}};
   if (const auto done = voxelize(recording, setting.repeats, result); !done)
+    return tl::make_unexpected(done.error());
+  if (const auto done = time_sweep_kernels(recording, result); !done)
     return tl::make_unexpected(done.error());
   for (const MapConfig& grid : plan.grids) {
     const auto voxelized = measure_voxelizing(Backend::cpu, grid, recording, recording.sweeps.size());
     if (!voxelized) return unavailable(voxelized.error());
     for (const int window : plan.windows) {
-      auto row = fuse({recording, voxelized->maps, grid, window}, setting.repeats);
+      const Drive drive{recording, voxelized->maps, grid, window};
+      auto row = fuse(drive, setting.repeats);
       if (!row) return tl::make_unexpected(row.error());
+      const bool fits = row->cuda.has_value();
       result.rows.push_back(std::move(*row));
+      if (window != plan.kernels_window || !fits) continue;
+      if (const auto done = time_tick_kernels(drive, setting.repeats, result); !done)
+        return tl::make_unexpected(done.error());
     }
   }
   return result;

@@ -12,9 +12,11 @@
 
 namespace gvom::bench {
 
-// Ticks, and sweeps, of a repeat: the CPU is there for its bytes and to be compared with, and slower.
+// Ticks, and sweeps, of a repeat: the CPU is there for its bytes and to be compared with, and slower. Kernels
+// are timed by themselves in runs of their own.
 inline constexpr int kDeviceRuns = 20;
 inline constexpr int kHostRuns = 4;
+inline constexpr int kKernelRuns = 4;
 
 /// What of it is measured.
 struct GpuSetting {
@@ -37,12 +39,19 @@ struct TickRow {
   [[nodiscard]] double bricks_entering() const { return (cuda ? *cuda : cpu).bricks_entering; }
 };
 
+/// Each kernel of a sweep, or of a tick.
+struct KernelTable {
+  std::string of;  ///< Of what, for people.
+  NamedSamples kernels;
+};
+
 struct GpuComparison {
   cuda::CopyRates rates;
   MapConfig voxelized;  ///< The grid of the following.
   VoxelizingTimes cpu_voxelizing;
   VoxelizingTimes cuda_voxelizing;
   std::vector<TickRow> rows;
+  std::vector<KernelTable> kernels;
 };
 
 /// Errors: `unavailable` if there is no usable GPU, in the driver's words; `internal` if the results differ:

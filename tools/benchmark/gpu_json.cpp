@@ -59,6 +59,9 @@ Json to_json(const Setting& setting, const GpuComparison& comparison) {
                         {"cpu", json_of(comparison.cpu_voxelizing)},
                         {"cuda", json_of(comparison.cuda_voxelizing)}};
   for (const TickRow& row : comparison.rows) json["ticks"].push_back(json_of(row, rates));
+  for (const KernelTable& table : comparison.kernels)
+    for (const NamedSamples::Step& step : table.kernels.steps())
+      json["kernels"][table.of][step.name] = json_of(step.times);
   return json;
 }
 

@@ -82,6 +82,20 @@ std::string voxelizing_table(const GpuComparison& comparison) {
                     ratio(cpu.write, cuda.write), ratio(cpu.both, cuda.both));
 }
 
+std::string kernel_tables(const GpuComparison& comparison) {
+  std::string all;
+  for (const KernelTable& table : comparison.kernels) {
+    all += text(
+        "\nEach kernel of %s, by events around it, ms, p50 / p99. Together they take less: they are not "
+        "played "
+        "as one graph here.\n\n| kernel | ms | times |\n| --- | --- | --- |\n",
+        table.of.c_str());
+    for (const NamedSamples::Step& step : table.kernels.steps())
+      all += text("| %s | %s | %zu |\n", step.name.c_str(), times(step.times).c_str(), step.times.size());
+  }
+  return all;
+}
+
 // Rows whose device says something else than the heading.
 std::string notes(const GpuComparison& comparison) {
   std::string all;
@@ -97,7 +111,7 @@ std::string notes(const GpuComparison& comparison) {
 
 std::string markdown(const Setting& setting, const GpuComparison& comparison) {
   return heading(setting, comparison) + tick_table(comparison) + notes(comparison) + bytes_table(comparison) +
-         voxelizing_table(comparison);
+         voxelizing_table(comparison) + kernel_tables(comparison);
 }
 
 }  // namespace gvom::bench

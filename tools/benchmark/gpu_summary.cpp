@@ -20,6 +20,15 @@ std::string tick_line(const TickRow& row, const cuda::CopyRates& rates) {
                      row.bricks_entering());
 }
 
+// In microseconds.
+std::string kernel_line(const KernelTable& table) {
+  std::string line = table.of + ", kernels, us p50/p99:";
+  for (const NamedSamples::Step& step : table.kernels.steps())
+    line += text(" %s %.1f/%.1f", step.name.c_str(), 1e3 * step.times.quantile_ms(0.5),
+                 1e3 * step.times.quantile_ms(0.99));
+  return line + "\n";
+}
+
 }  // namespace
 
 std::string summary(const Setting& setting, const GpuComparison& comparison) {
@@ -35,6 +44,7 @@ std::string summary(const Setting& setting, const GpuComparison& comparison) {
   all += text("a sweep, %s: GPU %s (count %s), CPU %s: CPU/GPU %.1f\n", name_of(comparison.voxelized).c_str(),
               times(cuda.both).c_str(), times(cuda.count).c_str(), times(cpu.both).c_str(),
               ratio(cpu.both, cuda.both));
+  for (const KernelTable& table : comparison.kernels) all += kernel_line(table);
   return all +
          text("copies: %.1f GB/s up, %.1f GB/s down, %.0f GB/s within; all bytes the same as the CPU's\n",
               rates.to_device * 1e-9, rates.to_host * 1e-9, rates.within_device * 1e-9);

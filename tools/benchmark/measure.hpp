@@ -18,13 +18,18 @@ struct VoxelizingTimes {
   Samples count;
   Samples write;
   Samples both;
+  NamedSamples kernels;        ///< Where they are timed.
   std::vector<OwnedMap> maps;  ///< One for each sweep that came.
 };
 
-/// Returns to buffer maps, `runs` sweeps of the recording, which begins anew at its end. A device reads the
-/// returns from pageable memory, as a decoder leaves them, and writes the map to pinned memory.
+/// Whether a device times each kernel by itself too: what is around it then takes longer.
+enum class Kernels { together, timed };
+
+/// Returns to buffer maps, `runs` sweeps of the recording, which begins anew at its end. A device gets the
+/// returns in pageable memory, as a decoder leaves them, and writes the map to pinned memory.
 DeviceExpected<VoxelizingTimes> measure_voxelizing(Backend which, const MapConfig& config,
-                                                   const Recording& recording, std::size_t runs);
+                                                   const Recording& recording, std::size_t runs,
+                                                   Kernels kernels = Kernels::together);
 
 struct StraightTimes {
   Samples times;             ///< The straight loop over walk_ray, its counters cleared beforehand.
@@ -72,12 +77,14 @@ struct TickTimes {
   Samples both;
   double bricks_entering = 0;  ///< In each tick, the mean.
   std::optional<DeviceTimes> device;
+  NamedSamples kernels;  ///< Where they are timed.
   std::vector<KeptLayers> kept;
 };
 
 /// Measures a stretch of a drive.
 /// @param kept_ticks whose layers are kept, to be compared
 DeviceExpected<TickTimes> measure_ticks(Backend which, const Drive& drive, const Stretch& stretch,
-                                        const std::vector<int>& kept_ticks = {});
+                                        const std::vector<int>& kept_ticks = {},
+                                        Kernels kernels = Kernels::together);
 
 }  // namespace gvom::bench

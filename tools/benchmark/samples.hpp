@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <string>
 #include <vector>
 
 namespace gvom::bench {
@@ -23,6 +24,26 @@ class Samples {
 
  private:
   std::vector<double> times_ms_;
+};
+
+/// Times of steps that have names, in the order in which they came first.
+class NamedSamples {
+ public:
+  struct Step {
+    std::string name;
+    Samples times;
+  };
+
+  void add(const std::string& name, double time_ms) {
+    const auto same = [&](const Step& step) { return step.name == name; };
+    auto step = std::find_if(steps_.begin(), steps_.end(), same);
+    if (step == steps_.end()) step = steps_.insert(step, Step{name, {}});
+    step->times.add(time_ms);
+  }
+  [[nodiscard]] const std::vector<Step>& steps() const { return steps_; }
+
+ private:
+  std::vector<Step> steps_;
 };
 
 /// Runs `work` once; how long it took, ms.

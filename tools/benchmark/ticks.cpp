@@ -8,12 +8,13 @@ namespace gvom::bench {
 
 namespace {
 
-FusionSetup setup_of(const Drive& drive, const HostMemory& shared) {
+FusionSetup setup_of(const Drive& drive, const HostMemory& shared, Kernels kernels) {
   FusionSetup setup;
   setup.config.map = drive.map;
   setup.config.window.buffer_size = drive.window;
   setup.config.window.max_age_s = 3600;
   setup.shared = shared;
+  setup.times_kernels = kernels == Kernels::timed;
   for (const OwnedMap& map : drive.maps)
     setup.max_returns = std::max(setup.max_returns, std::size_t{map.view.shape.record_count});
   return setup;
@@ -63,6 +64,7 @@ class Driver {
       if (!times.device) times.device.emplace();
       add(*costs, least_bytes(backend_.window(), before, layers_), *times.device);
     }
+    for (const KernelTime& kernel : backend_.take_kernel_times()) times.kernels.add(kernel.name, kernel.ms);
     return {};
   }
 
@@ -75,9 +77,9 @@ class Driver {
 }  // namespace
 
 DeviceExpected<TickTimes> measure_ticks(Backend which, const Drive& drive, const Stretch& stretch,
-                                        const std::vector<int>& kept_ticks) {
+                                        const std::vector<int>& kept_ticks, Kernels kernels) {
   DriveMemory memory(drive);
-  auto opened = open_fusion(which, setup_of(drive, memory.whole()));
+  auto opened = open_fusion(which, setup_of(drive, memory.whole(), kernels));
   if (!opened) return tl::make_unexpected(opened.error());
   const LayerArrays layers = layer_arrays(memory.layers(), drive.columns());
   Driver driver(*opened->backend, layers);

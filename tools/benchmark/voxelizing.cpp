@@ -16,10 +16,12 @@ OwnedMap copy_of(const BrickMapView& map) {
 }  // namespace
 
 DeviceExpected<VoxelizingTimes> measure_voxelizing(Backend which, const MapConfig& config,
-                                                   const Recording& recording, std::size_t runs) {
+                                                   const Recording& recording, std::size_t runs,
+                                                   Kernels kernels) {
   const std::uint32_t slots = grid_around(config, Eigen::Vector3d::Zero()).brick_slots();
   Memory out(map_bytes({slots, slots, static_cast<std::uint32_t>(kMostReturns)}));
-  auto opened = open_voxelizer(which, {config, recording.lidar, {}, kMostReturns, out.whole()});
+  auto opened = open_voxelizer(
+      which, {config, recording.lidar, {}, kMostReturns, out.whole(), kernels == Kernels::timed});
   if (!opened) return tl::make_unexpected(opened.error());
   VoxelizerBackend& voxelizer = *opened->backend;
   VoxelizingTimes times;
@@ -40,6 +42,7 @@ DeviceExpected<VoxelizingTimes> measure_voxelizing(Backend which, const MapConfi
     times.count.add(count_ms);
     times.write.add(write_ms);
     times.both.add(count_ms + write_ms);
+    for (const KernelTime& kernel : voxelizer.take_kernel_times()) times.kernels.add(kernel.name, kernel.ms);
     if (run == i) times.maps.push_back(copy_of(map_in_one({grid, 0, record_of(pose), *shape}, arrays)));
   }
   return times;
