@@ -1,9 +1,13 @@
 // How the CUDA back end deals with the host's memory: on the fake device, which can be told to.
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <string>
 
+#include "core/brick_map_storage.hpp"
+#include "core/mapper.hpp"
 #include "core/open_backend.hpp"
 #include "tests/cuda/drive.hpp"
 #include "tests/cuda/segment.hpp"
@@ -72,6 +76,41 @@ TEST_CASE("CUDA: what the device and its objects took is given back") {
     for (int i = 0; i < 20; ++i) REQUIRE(drive->step());
     CHECK_FALSE(fake_cuda::leftovers().empty());
   }
+  CHECK(fake_cuda::leftovers().empty());
+}
+
+TEST_CASE("CUDA: a place that a map outgrows gives its memory back for more") {
+  MapperConfig config;
+  config.map = {0.4, 0.4, 256, 64};
+  config.window.buffer_size = 1;
+  const std::size_t before = fake_cuda::device_bytes();
+  {
+    MapFuser fuser(open_fusion(Backend::cuda, {config, 1, 40'000, {}}).value().backend);
+    SweepMapper mapper(config, {}, 40'000);
+    OdometryBuffer odometry;
+    BrickMapStorage storage;
+    const std::size_t opened = fake_cuda::device_bytes();
+    std::size_t largest = 0;
+    for (std::int64_t i = 1; i <= 12; ++i) {
+      Sweep sweep;
+      sweep.stamp_ns = i;
+      sweep.times_ns = {i};
+      for (int k = 0; k < 3000 * i; ++k)
+        sweep.returns.push_back(
+            {4.0 * double(i) * std::sin(k), 4.0 * double(i) * std::cos(k), 10.0 * std::sin(7 * k), 0});
+      odometry.add({i, {}});
+      REQUIRE(mapper.write(storage.resize(mapper.count(sweep, odometry).value())));
+      BrickMapView view = storage.view(mapper.grid(), i, mapper.T_odom_base());
+      largest = std::max(largest, std::size_t{view.shape.brick_count} * kBrickCells * 4);
+      REQUIRE(fuser.add({view, 0, 0}) == AddResult::added);
+      REQUIRE(fuser.make_layers(Segment(16 << 20).loan_layers(256)));
+    }
+    REQUIRE(largest > std::size_t{3} << 20);
+    // Three places, each with a quarter to spare and rounded up, of a map that is little more than its lookup
+    // values.
+    CHECK(fake_cuda::device_bytes() - opened < 3 * (largest * 3 / 2 + (std::size_t{1} << 20)));
+  }
+  CHECK(fake_cuda::device_bytes() == before);
   CHECK(fake_cuda::leftovers().empty());
 }
 
