@@ -1,5 +1,6 @@
 #include "tests/cuda/twins.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <map>
 #include <memory>
@@ -73,6 +74,8 @@ class Twins {
     REQUIRE(cuda_.add(map).value() == result);
     if (result != AddResult::added) return segment_.give_back(map.view.directory);
     ++tally_.added;
+    tally_.most_maps = std::max(tally_.most_maps, static_cast<int>(cuda_.window().maps().size()));
+    tally_.most_left = std::max(tally_.most_left, static_cast<int>(cuda_.window().left().size()));
     for (const WindowMap& left : cuda_.window().left()) segment_.give_back(left.view.directory);
   }
 
@@ -111,7 +114,10 @@ class Twins {
 
 TwinTally run_twins(const ScenarioSize& size, std::uint64_t seed) {
   CAPTURE(seed, size.size_xy, size.size_z, size.on_faces);
-  const Scenario scenario = random_scenario(seed, size);
+  return run_scenario_twins(random_scenario(seed, size), seed);
+}
+
+TwinTally run_scenario_twins(const Scenario& scenario, std::uint64_t seed) {
   return Twins(scenario, seed).run();
 }
 
