@@ -13,6 +13,9 @@ namespace gvom::cuda {
 
 namespace {
 
+// The device is to be busy until all kernels of a tick are sent: else their times count the sending.
+constexpr std::size_t kDelayBytes = std::size_t{128} << 20;
+
 // `call` may have its arguments behind it, which say nothing to people.
 std::string words(const std::string& call, cudaError_t error) {
   return call.substr(0, call.find('(')) + ": " + cudaGetErrorString(error);
@@ -51,6 +54,7 @@ struct Device::State {
   std::vector<PlayableGraph> graphs;
   std::uint64_t launches = 0;
   KernelClock clock;
+  void* delay = nullptr;  // memory whose clearing takes as long as sending the kernels that are timed
   std::string failure;
 
   // Keeps the first error, and takes it from the runtime, which would tell it again to whoever asks next.
@@ -250,6 +254,7 @@ void* Device::stream() const {
 }
 
 void Device::time_kernels() {
+  state_->delay = array<std::byte>(kDelayBytes);
   state_->clock.start();
 }
 
@@ -260,7 +265,9 @@ std::vector<KernelTime> Device::take_kernel_times() {
 }
 
 void Device::begin_kernel(const char* type) {
-  if (state_->clock.runs()) GVOM_CUDA(state_->clock.begin(type, state_->stream));
+  if (!state_->clock.runs()) return;
+  if (state_->clock.is_first()) clear(state_->delay, kDelayBytes);
+  GVOM_CUDA(state_->clock.begin(type, state_->stream));
 }
 
 void Device::note_launch(int error, int kernels) {

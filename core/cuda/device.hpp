@@ -36,7 +36,7 @@ class Device {
   /// Memory of the device, 256-byte aligned, that holds anything at first; it goes with this object. Null
   /// after a failure.
   void* allocate(std::size_t bytes);
-  /// Gives some of it back before that, when all work so far is done. Nothing happens to null.
+  /// Gives some of it back before that; no work on it may be under way. Nothing happens to null.
   void release(void* memory);
   /// Memory of the host that the device copies from and to without help; it goes with this object too, and
   /// holds anything at first.

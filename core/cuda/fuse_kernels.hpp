@@ -161,19 +161,20 @@ struct UpdateLastSeen {
       }
     }
     for_each_lane([&](std::int32_t lane) {
+      GVOM_UNROLL
       for (std::int32_t half = 0; half < Newest::kHalves; ++half)
         last_seen_ns[place(lowest, lane + half * kLanes)] = stamp_of(newest[lane].map[half]);
     });
   }
 
  private:
-  /// For the columns `lane` and `lane + 32`: one more than the index of the newest map that observed it, or
-  /// 0.
+  /// For the columns `lane` and `lane + 32`: the index, plus one, of the newest map that observed it; else 0.
   struct Newest {
     static constexpr std::int32_t kHalves = kBrickColumns / kLanes;
     std::int32_t map[kHalves] = {};
 
     __device__ void take(std::int32_t half, std::int32_t first, std::uint32_t seen) {
+      GVOM_UNROLL
       for (std::int32_t h = 0; h < kHalves; ++h)  // a constant index stays in a register
         if (h == half && map[h] == 0 && seen != 0) map[h] = first + lowest_lane(seen) + 1;
     }

@@ -25,6 +25,7 @@ FusedMap::FusedMap(Device& device, const MapConfig& map, int min_hits, std::size
   listed_ = device.array<std::uint32_t>(slots);
   listed_count_ = device.array<std::uint32_t>(1);
   clear();
+  device.clear(listed_count_, sizeof *listed_count_);
   const auto* tick = reinterpret_cast<const FuseTick*>(tick_);
   update_ = device.record([=, &device] {
     device.clear(listed_count_, sizeof *listed_count_);

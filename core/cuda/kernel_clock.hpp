@@ -19,6 +19,8 @@ class KernelClock {
 
   void start() { runs_ = true; }
   [[nodiscard]] bool runs() const { return runs_; }
+  /// Whether the next kernel is the first since the last `take`.
+  [[nodiscard]] bool is_first() const { return count_ == 0; }
 
   /// Around a launch. `type` is the name of a type as typeid tells it.
   cudaError_t begin(const char* type, cudaStream_t stream);

@@ -85,6 +85,7 @@ bool MapRing::make_room(Place& place, std::size_t bytes) {
   if (bytes <= place.bytes) return true;
   const std::size_t with_spare = (bytes + bytes / 4 + kRoomStep - 1) / kRoomStep * kRoomStep;
   room_bytes_ = std::max(room_bytes_, std::min(with_spare, most_bytes_));
+  if (place.memory != nullptr) static_cast<void>(device_.wait());  // the last tick may still read it
   device_.release(place.memory);
   place.memory = device_.array<std::byte>(room_bytes_);
   place.bytes = place.memory != nullptr ? room_bytes_ : 0;

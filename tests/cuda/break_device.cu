@@ -12,6 +12,7 @@ __global__ void write_nowhere(int* nowhere) {
 
 void break_device() {
   write_nowhere<<<1, 1, 0, cudaStreamPerThread>>>(reinterpret_cast<int*>(8));
+  cudaStreamSynchronize(cudaStreamPerThread);  // until it has happened; what it was, the back end is to say
 }
 
 }  // namespace gvom::test

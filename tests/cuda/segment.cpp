@@ -10,20 +10,27 @@ namespace {
 
 constexpr int kNonsense = 0x6E;
 
-std::size_t aligned(std::size_t bytes) {
-  return (bytes + 63) / 64 * 64;
+constexpr std::size_t kPage = 4096;
+
+std::size_t aligned(std::size_t bytes, std::size_t to = 64) {
+  return (bytes + to - 1) / to * to;
 }
 
 }  // namespace
 
+Segment::Segment(std::size_t bytes)
+    : memory_(aligned(bytes, kPage) + kPage),
+      begin_(reinterpret_cast<std::byte*>(aligned(reinterpret_cast<std::uintptr_t>(memory_.data()), kPage))),
+      bytes_(aligned(bytes, kPage)) {}
+
 // The first gap that is large enough.
 std::byte* Segment::take(std::size_t bytes) {
-  auto* next = reinterpret_cast<std::byte*>(aligned(reinterpret_cast<std::uintptr_t>(memory_.data())));
+  std::byte* next = begin_;
   for (const auto& [begin, size] : taken_) {
     if (static_cast<std::size_t>(begin - next) >= bytes) break;
     next = begin + aligned(size);
   }
-  if (next + bytes > memory_.data() + memory_.size()) throw std::length_error("the segment is full");
+  if (next + bytes > begin_ + bytes_) throw std::length_error("the segment is full");
   taken_[next] = bytes;
   std::memset(next, kNonsense, bytes);
   return next;

@@ -12,9 +12,10 @@ namespace gvom::test {
 
 class Segment {
  public:
-  explicit Segment(std::size_t bytes) : memory_(bytes + kAlignment) {}
+  /// @param bytes of which it has at least so many; whole pages, as what is pinned should be
+  explicit Segment(std::size_t bytes);
 
-  [[nodiscard]] HostMemory memory() { return {memory_.data(), memory_.size()}; }
+  [[nodiscard]] HostMemory memory() { return {begin_, bytes_}; }
 
   /// A chunk for a map, to be filled; `view` gets its pointers. Nothing is in it yet but nonsense.
   BrickMapArrays loan_map(const BrickMapShape& shape, BrickMapView& view);
@@ -24,10 +25,11 @@ class Segment {
   void give_back(const void* begin);
 
  private:
-  static constexpr std::size_t kAlignment = 64;
   std::byte* take(std::size_t bytes);
 
   std::vector<std::byte> memory_;
+  std::byte* begin_;
+  std::size_t bytes_;
   std::map<std::byte*, std::size_t> taken_;  // begin and bytes
 };
 
