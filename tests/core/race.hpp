@@ -15,4 +15,14 @@ inline constexpr unsigned kAllFlags = kHard | kSoft | kNegative | kSteep | kAssu
 /// difference of a bit fails, with its seed. Returns the flags that were seen in any column.
 unsigned race(Backend backend, const ScenarioSize& size, std::uint64_t first_seed, std::uint64_t seeds);
 
+/// How many seeds to run: fewer under AddressSanitizer, which looks at accesses. Values are for the other
+/// builds.
+constexpr std::uint64_t seed_count(std::uint64_t count) {
+#ifdef __SANITIZE_ADDRESS__
+  return (count + 2) / 3;
+#else
+  return count;
+#endif
+}
+
 }  // namespace gvom::test

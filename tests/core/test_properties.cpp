@@ -7,18 +7,18 @@ namespace gvom::test {
 namespace {
 
 TEST_CASE("Random drives through the smallest grid give the oracle's bits") {
-  race(Backend::cpu, {8, 8, 40, 60, false}, 100, 100);
-  race(Backend::cpu, {8, 8, 40, 60, true}, 200, 100);
+  race(Backend::cpu, {8, 8, 40, 60, false}, 100, seed_count(100));
+  race(Backend::cpu, {8, 8, 40, 60, true}, 200, seed_count(100));
 }
 
 TEST_CASE("Random drives through a flat grid give the oracle's bits") {
   CHECK(race(Backend::cpu, {64, 8, 30, 150, false}, 300, 8) == kAllFlags);
-  race(Backend::cpu, {64, 8, 30, 150, true}, 400, 8);
+  race(Backend::cpu, {64, 8, 30, 150, true}, 400, seed_count(8));
 }
 
 TEST_CASE("Random drives through a cube give the oracle's bits") {
   CHECK(race(Backend::cpu, {64, 64, 24, 250, false}, 500, 6) == kAllFlags);
-  race(Backend::cpu, {64, 64, 24, 250, true}, 600, 6);
+  race(Backend::cpu, {64, 64, 24, 250, true}, 600, seed_count(6));
 }
 
 TEST_CASE("Random drives through a tower of two mask words give the oracle's bits") {
@@ -28,9 +28,9 @@ TEST_CASE("Random drives through a tower of two mask words give the oracle's bit
 }
 
 TEST_CASE("Random drives through a grid that is no power of two give the oracle's bits") {
-  race(Backend::cpu, {264, 8, 20, 400, false}, 1000, 3);
+  race(Backend::cpu, {264, 8, 20, 400, false}, 1000, seed_count(3));
   race(Backend::cpu, {264, 64, 20, 400, true}, 1100, 1);
-  race(Backend::cpu, {24, 72, 30, 150, false}, 1200, 6);
+  race(Backend::cpu, {24, 72, 30, 150, false}, 1200, seed_count(6));
 }
 
 }  // namespace

@@ -10,8 +10,8 @@ namespace {
 
 TEST_CASE("CUDA: random drives through the smallest grid give the oracle's bits") {
   if (!has_gpu()) return;
-  race(Backend::cuda, {8, 8, 40, 60, false}, 2100, 25);
-  race(Backend::cuda, {8, 8, 40, 60, true}, 2200, 25);
+  race(Backend::cuda, {8, 8, 40, 60, false}, 2100, seed_count(25));
+  race(Backend::cuda, {8, 8, 40, 60, true}, 2200, seed_count(25));
 }
 
 TEST_CASE("CUDA: random drives through a flat grid and a cube give the oracle's bits") {
@@ -25,8 +25,8 @@ TEST_CASE("CUDA: random drives through towers and odd grids give the oracle's bi
   if (!has_gpu()) return;
   race(Backend::cuda, {8, 128, 30, 80, false}, 2700, 6);
   race(Backend::cuda, {64, 128, 20, 200, false}, 900, 3);
-  race(Backend::cuda, {264, 8, 20, 400, false}, 1000, 3);
-  race(Backend::cuda, {24, 72, 30, 150, true}, 1200, 6);
+  race(Backend::cuda, {264, 8, 20, 400, false}, 1000, seed_count(3));
+  race(Backend::cuda, {24, 72, 30, 150, true}, 1200, seed_count(6));
 }
 
 }  // namespace
