@@ -136,6 +136,8 @@ TEST_CASE("one signal ends who leaves a broker that hangs, or that ends at the s
     CHECK(graph.fusion().says("fusing 2 lidars"));
     CHECK(graph.ingest("front").says("front from"));
     CHECK(graph.ingest("rear").says("rear from"));
+    std::this_thread::sleep_for(
+        500ms);  // they have joined with all that they publish; who still does ends with 70
     graph.roudi().send(hangs ? SIGSTOP : SIGTERM);
     for (Program* const program : {&graph.fusion(), &graph.ingest("front"), &graph.ingest("rear")})
       program->send(SIGTERM);
