@@ -6,28 +6,12 @@ namespace gvom::cuda {
 
 namespace {
 
-constexpr std::size_t kAlignment = 64;
 constexpr std::size_t kRoomStep = std::size_t{1} << 20;
-
-std::size_t aligned(std::size_t bytes) {
-  return (bytes + kAlignment - 1) / kAlignment * kAlignment;
-}
-
-// A map's arrays behind each other.
-struct Layout {
-  std::size_t lookup, columns, records, bytes;
-
-  explicit Layout(const BrickMapShape& shape)
-      : lookup(aligned(shape.brick_slots * sizeof(std::int32_t))),
-        columns(lookup + aligned(std::size_t{shape.brick_count} * kBrickCells * sizeof(std::int32_t))),
-        records(columns + aligned(shape.brick_count * sizeof(std::uint64_t))),
-        bytes(records + aligned(shape.record_count * sizeof(VoxelRecord))) {}
-};
 
 std::size_t most_bytes_of(const MapConfig& map, std::size_t most_records) {
   const std::uint32_t slots = grid_around(map, Eigen::Vector3d::Zero()).brick_slots();
   const std::size_t records = std::min(most_records, std::size_t{slots} * kBrickCells);
-  return Layout({slots, slots, static_cast<std::uint32_t>(records)}).bytes;
+  return brick_map_layout(0, {slots, slots, static_cast<std::uint32_t>(records)}).bytes;
 }
 
 }  // namespace
@@ -58,7 +42,7 @@ void MapRing::send(const BrickMapView& map, std::uint32_t place) {
     to.map = read_in_place(map);
   } else {
     const bool in_one = map.bytes_in_one > 0;
-    if (!make_room(to, in_one ? map.bytes_in_one : Layout(map.shape).bytes)) return;
+    if (!make_room(to, in_one ? map.bytes_in_one : brick_map_layout(0, map.shape).bytes)) return;
     to.map = in_one ? send_in_one(map, to.memory) : send_arrays(map, to.memory);
   }
   to.map.observed = to.observed;
@@ -104,7 +88,7 @@ DeviceMap MapRing::send_in_one(const BrickMapView& map, std::byte* to) {
 }
 
 DeviceMap MapRing::send_arrays(const BrickMapView& map, std::byte* to) {
-  const Layout layout(map.shape);
+  const BrickMapLayout layout = brick_map_layout(0, map.shape);
   const auto send = [this](std::byte* place, const auto* host, std::size_t count) {
     device_.upload(place, host, count * sizeof *host);
     bytes_sent_ += count * sizeof *host;

@@ -43,21 +43,18 @@ void Segment::give_back(const void* begin) {
 }
 
 BrickMapArrays Segment::loan_map(const BrickMapShape& shape, BrickMapView& view) {
-  const std::size_t lookup = aligned(shape.brick_slots * sizeof(std::int32_t));
-  const std::size_t columns =
-      lookup + aligned(std::size_t{shape.brick_count} * kBrickCells * sizeof(std::int32_t));
-  const std::size_t records = columns + aligned(shape.brick_count * sizeof(std::uint64_t));
-  const std::size_t bytes = records + shape.record_count * sizeof(VoxelRecord);
-  std::byte* const chunk = take(bytes);
-  const BrickMapArrays arrays{
-      reinterpret_cast<std::int32_t*>(chunk), reinterpret_cast<std::int32_t*>(chunk + lookup),
-      reinterpret_cast<std::uint64_t*>(chunk + columns), reinterpret_cast<VoxelRecord*>(chunk + records)};
+  const BrickMapLayout layout = brick_map_layout(0, shape);
+  std::byte* const chunk = take(layout.bytes);
+  const BrickMapArrays arrays{reinterpret_cast<std::int32_t*>(chunk + layout.directory),
+                              reinterpret_cast<std::int32_t*>(chunk + layout.lookup),
+                              reinterpret_cast<std::uint64_t*>(chunk + layout.columns),
+                              reinterpret_cast<VoxelRecord*>(chunk + layout.records)};
   view.shape = shape;
   view.directory = arrays.directory;
   view.lookup = arrays.lookup;
   view.columns = arrays.columns;
   view.records = arrays.records;
-  view.bytes_in_one = bytes;
+  view.bytes_in_one = layout.bytes;
   return arrays;
 }
 

@@ -33,7 +33,6 @@ std::string refused_call();
 
 /// Since the program's start.
 struct Counts {
-  std::uint64_t calls;
   std::uint64_t allocations;  ///< Of device and of pinned memory.
   std::uint64_t waits;        ///< cudaStreamSynchronize.
   std::uint64_t pageable_uploads;

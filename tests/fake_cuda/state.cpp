@@ -100,7 +100,6 @@ cudaError_t give(cudaError_t error) {
 
 cudaError_t enter(const char* call, InCapture in_capture, cudaError_t refusal) {
   State& s = state();
-  ++s.counts.calls;
   if (s.sticky != cudaSuccess) return give(s.sticky);
   if (s.refused_in > 0 && --s.refused_in == 0) {
     s.refused = call;
