@@ -9,30 +9,14 @@ namespace {
 constexpr std::size_t kFloatLayers = 10;
 constexpr std::size_t kByteLayers = 3;
 
-std::size_t aligned(std::size_t bytes) {
-  constexpr std::size_t kAlignment = 64;
-  return (bytes + kAlignment - 1) / kAlignment * kAlignment;
-}
-
-// A map's arrays behind each other.
-struct MapLayout {
-  std::size_t lookup, columns, records, bytes;
-
-  explicit MapLayout(const BrickMapShape& shape)
-      : lookup(aligned(shape.brick_slots * sizeof(std::int32_t))),
-        columns(lookup + aligned(std::size_t{shape.brick_count} * kBrickCells * sizeof(std::int32_t))),
-        records(columns + aligned(shape.brick_count * sizeof(std::uint64_t))),
-        bytes(records + aligned(shape.record_count * sizeof(VoxelRecord))) {}
-};
-
 }  // namespace
 
 std::size_t map_bytes(const BrickMapShape& shape) {
-  return MapLayout(shape).bytes;
+  return align_array(brick_map_layout(0, shape).bytes);
 }
 
 BrickMapArrays map_arrays(std::byte* begin, const BrickMapShape& shape) {
-  const MapLayout layout(shape);
+  const BrickMapLayout layout = brick_map_layout(0, shape);
   return {reinterpret_cast<std::int32_t*>(begin), reinterpret_cast<std::int32_t*>(begin + layout.lookup),
           reinterpret_cast<std::uint64_t*>(begin + layout.columns),
           reinterpret_cast<VoxelRecord*>(begin + layout.records)};
@@ -54,14 +38,14 @@ BrickMapView map_in_one(const BrickMapView& what, const BrickMapArrays& arrays) 
 }
 
 std::size_t layers_bytes(std::size_t columns) {
-  return kFloatLayers * aligned(columns * sizeof(float)) + kByteLayers * aligned(columns);
+  return kFloatLayers * align_array(columns * sizeof(float)) + kByteLayers * align_array(columns);
 }
 
 LayerArrays layer_arrays(std::byte* begin, std::size_t columns) {
-  const std::size_t float_bytes = aligned(columns * sizeof(float));
+  const std::size_t float_bytes = align_array(columns * sizeof(float));
   const auto f = [&](std::size_t i) { return reinterpret_cast<float*>(begin + i * float_bytes); };
   const auto b = [&](std::size_t i) {
-    return reinterpret_cast<std::uint8_t*>(begin + kFloatLayers * float_bytes + i * aligned(columns));
+    return reinterpret_cast<std::uint8_t*>(begin + kFloatLayers * float_bytes + i * align_array(columns));
   };
   return {f(0), f(1), f(2), f(3), f(4), f(5), f(6),
           f(7), f(8), f(9), b(0), b(1), b(2), layers_bytes(columns)};
