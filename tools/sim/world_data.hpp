@@ -13,8 +13,8 @@ namespace gvom::sim {
 /// What the ground is at a node of the height map. The numbers are those in `surface.npy`.
 enum class Surface : std::uint8_t {
   ground = 0,  ///< What can be driven on, where it is not too steep.
-  hole = 1,    ///< Below the ground around it: a ditch, a pothole, what lies below a cliff's or a bank's edge.
-  face = 2,    ///< The steep side of a bank, a step, a kerb, a wall of earth.
+  hole = 1,  ///< Below the ground around it: a ditch, a pothole, what lies below a cliff's or a bank's edge.
+  face = 2,  ///< The steep side of a bank, a step, a kerb, a wall of earth.
   mirror = 3,  ///< Water: rays are mirrored.
   dark = 4,    ///< Gives no return at all.
 };
@@ -57,9 +57,9 @@ struct TrackPoint {
 struct Object {
   Kind kind = Kind::rock;
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< Its foot.
-  double radius_m = 0.0;      ///< Of trunk, bush, rock, in the plane.
-  double height_m = 0.0;      ///< Above its foot; of a branch its lowest point above the ground.
-  std::vector<Body> bodies;   ///< In odom; a walker's: relative to where it stands.
+  double radius_m = 0.0;                                 ///< Of trunk, bush, rock, in the plane.
+  double height_m = 0.0;          ///< Above its foot; of a branch its lowest point above the ground.
+  std::vector<Body> bodies;       ///< In odom; a walker's: relative to where it stands.
   std::vector<TrackPoint> track;  ///< A walker's; empty for everything else.
 };
 
