@@ -33,7 +33,7 @@ Truth small_truth() {
   const std::size_t count = kSize * kSize;
   truth.ground_lowest.assign(count, 2.0F);
   truth.ground_mean.assign(count, 2.1F);
-  truth.ditch_depth.assign(count, 0.0F);
+  truth.drop_m.assign(count, 0.0F);
   truth.clearance.assign(count, kFree);
   truth.classes.assign(count, kGround);
   truth.object.assign(count, -1);
@@ -51,7 +51,7 @@ Truth small_truth() {
   truth.person = {{0.0, 20.5, 20.5}, {10.0, 20.5, 20.5}};
   for (int y = 0; y < kSize; ++y) {
     put(14, y, kDitch, -1);
-    truth.ditch_depth[at(14, y)] = 1.2F;
+    truth.drop_m[at(14, y)] = 1.2F;
     truth.ground_lowest[at(14, y)] = 0.8F;
   }
   return truth;

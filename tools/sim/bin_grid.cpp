@@ -6,11 +6,11 @@ namespace gvom::sim {
 
 BinGrid::BinGrid(const std::vector<Primitive>& bodies) {
   if (bodies.empty()) return;
-  Eigen::Vector3d low = lower_corner(bodies.front());
-  Eigen::Vector3d high = upper_corner(bodies.front());
+  Eigen::Vector3d low = bodies.front().lower;
+  Eigen::Vector3d high = bodies.front().upper;
   for (const Primitive& body : bodies) {
-    low = low.cwiseMin(lower_corner(body));
-    high = high.cwiseMax(upper_corner(body));
+    low = low.cwiseMin(body.lower);
+    high = high.cwiseMax(body.upper);
   }
   min_x_m_ = low.x();
   min_y_m_ = low.y();
@@ -20,13 +20,13 @@ BinGrid::BinGrid(const std::vector<Primitive>& bodies) {
 
   std::vector<std::vector<int>> lists(bins_.size());
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const Eigen::Vector3d from = (lower_corner(bodies[i]) - low) / kEdge;
-    const Eigen::Vector3d to = (upper_corner(bodies[i]) - low) / kEdge;
+    const Eigen::Vector3d from = (bodies[i].lower - low) / kEdge;
+    const Eigen::Vector3d to = (bodies[i].upper - low) / kEdge;
     for (int iy = static_cast<int>(from.y()); iy <= static_cast<int>(to.y()); ++iy)
       for (int ix = static_cast<int>(from.x()); ix <= static_cast<int>(to.x()); ++ix) {
         const std::size_t at = static_cast<std::size_t>(iy) * width_ + ix;
         lists[at].push_back(static_cast<int>(i));
-        bins_[at].top_m = std::max(bins_[at].top_m, upper_corner(bodies[i]).z());
+        bins_[at].top_m = std::max(bins_[at].top_m, bodies[i].upper.z());
       }
   }
   for (std::size_t at = 0; at < bins_.size(); ++at) {

@@ -1,6 +1,7 @@
 // Which bodies may be met where: a coarse grid over the plane, walked along a ray.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -72,6 +73,8 @@ void BinGrid::walk(const Ray& ray, const double& limit_m, Visit&& visit) const {
       if (lowest <= here.top_m)
         for (std::size_t i = here.begin; i < here.end; ++i) visit(members_[i]);
     }
+    const bool gone = (step_x < 0 ? ix < 0 : ix >= width_) || (step_y < 0 ? iy < 0 : iy >= height_);
+    if (gone) return;
     distance = leave;
     if (next_x < next_y) {
       ix += step_x;

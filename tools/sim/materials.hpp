@@ -5,9 +5,9 @@
 
 namespace gvom::sim {
 
-// Rates at which rays end inside of what is not solid, per metre of their way. Leaves measured on real recordings
-// (RELLIS-3D: hits per metre of ray inside labelled bushes and trees): bushes are far thinner than they look, because
-// a return needs a good part of the beam, which small leaves seldom give it.
+// Rates at which rays end inside of what is not solid, per metre of their way. Leaves measured on real
+// recordings (RELLIS-3D: hits per metre of ray inside labelled bushes and trees): bushes are far thinner than
+// they look, because a return needs a good part of the beam, which small leaves seldom give it.
 inline constexpr double kThinBush = 0.07;   ///< A real bush; one sweep meets it with few rays.
 inline constexpr double kDenseBush = 0.15;  ///< The densest that are still bushes.
 inline constexpr double kCrown = 0.35;      ///< Foliage of trees.

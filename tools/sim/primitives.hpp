@@ -1,23 +1,13 @@
-// Bodies that rays meet: ellipsoids and capsules, solid or letting some rays through.
+// Bodies that rays meet: ellipsoids, capsules and boxes, solid or letting some rays through.
 #pragma once
 
 #include <Eigen/Core>
 #include <cstdint>
 #include <limits>
 
-namespace gvom::sim {
+#include "tools/sim/world_data.hpp"
 
-/// What stands in a column of the truth. The numbers are those in `class.npy`.
-enum class ObjectClass : std::uint8_t {
-  ground = 0,
-  tree = 1,
-  bush = 2,
-  rock = 3,
-  ditch = 4,
-  step_face = 5,
-  overhang = 6,
-  person = 7,
-};
+namespace gvom::sim {
 
 /// Metres, odom frame; `direction` is a unit vector.
 struct Ray {
@@ -33,26 +23,25 @@ struct Interval {
   [[nodiscard]] bool empty() const { return enter > leave; }
 };
 
-/// A convex body. `absorption_per_m` is the rate at which rays end inside: infinite for a solid.
+/// A body of the world, with what rays ask of it computed once.
 struct Primitive {
-  enum class Shape : std::uint8_t { ellipsoid, capsule };
+  Primitive(const Body& body, int number);
 
-  Shape shape = Shape::ellipsoid;
-  std::uint8_t reflectivity = 0;
-  int object = -1;         ///< Index of the object that this is a part of.
-  Eigen::Vector3d centre;  ///< Of the ellipsoid; of the capsule's first end.
-  Eigen::Vector3d size;    ///< The ellipsoid's radii; from the capsule's first end to its second.
-  double radius_m = 0.0;   ///< The capsule's.
-  double absorption_per_m = std::numeric_limits<double>::infinity();
+  Body body;
+  int object;      ///< Number of the object that this is a part of.
+  double cos_yaw;  ///< Of the body's own yaw.
+  double sin_yaw;
+  Eigen::Vector3d lower;  ///< Corners of its axis-aligned box.
+  Eigen::Vector3d upper;
 
-  [[nodiscard]] bool is_solid() const { return absorption_per_m == std::numeric_limits<double>::infinity(); }
+  [[nodiscard]] bool is_solid() const { return body.hits_per_m == std::numeric_limits<double>::infinity(); }
 };
 
 /// The whole line of the ray counts, also behind its origin.
-Interval intersect(const Primitive& body, const Ray& ray);
+Interval intersect(const Primitive& primitive, const Ray& ray);
 
-/// Corners of the body's axis-aligned box.
-Eigen::Vector3d lower_corner(const Primitive& body);
-Eigen::Vector3d upper_corner(const Primitive& body);
+/// Cosine of the angle between a ray's direction and the surface's normal at a point of the surface.
+double cos_incidence(const Primitive& primitive, const Eigen::Vector3d& point,
+                     const Eigen::Vector3d& direction);
 
 }  // namespace gvom::sim

@@ -6,44 +6,9 @@
 namespace gvom::sim {
 namespace {
 
-constexpr double kCellsPerMetre = 10.0;
-constexpr double kCell = 1.0 / kCellsPerMetre;
 constexpr int kTopLevel = 4;
-constexpr int kBlock = 1 << 2 * kTopLevel;  // cells along an edge of the coarsest square
-constexpr double kNudge = 1e-6;             // metres past a cell's border, to be surely in the next
+constexpr double kNudge = 1e-6;  // metres past a cell's border, to be surely in the next
 constexpr double kNever = std::numeric_limits<double>::infinity();
-
-int cells_of(double length_m) {
-  return static_cast<int>(std::ceil(length_m * kCellsPerMetre / kBlock)) * kBlock;
-}
-
-/// Adds the waves along one row of nodes; sin(a + b) from tables of a, so no sine per node.
-struct WaveTables {
-  WaveTables(const std::vector<Wave>& the_waves, double min_x_m, int count) : waves(the_waves) {
-    for (const Wave& wave : waves) {
-      std::vector<double> sine(count), cosine(count);
-      for (int i = 0; i < count; ++i) {
-        const double angle = wave.kx * (min_x_m + i * kCell);
-        sine[i] = wave.amplitude_m * std::sin(angle);
-        cosine[i] = wave.amplitude_m * std::cos(angle);
-      }
-      sines.push_back(std::move(sine));
-      cosines.push_back(std::move(cosine));
-    }
-  }
-
-  void add_row(double y_m, std::vector<double>& row) const {
-    for (std::size_t w = 0; w < waves.size(); ++w) {
-      const double sine = std::sin(waves[w].ky * y_m + waves[w].phase);
-      const double cosine = std::cos(waves[w].ky * y_m + waves[w].phase);
-      for (std::size_t i = 0; i < row.size(); ++i) row[i] += sines[w][i] * cosine + cosines[w][i] * sine;
-    }
-  }
-
-  const std::vector<Wave>& waves;
-  std::vector<std::vector<double>> sines;
-  std::vector<std::vector<double>> cosines;
-};
 
 /// The smaller distance at which the ray leaves the square that begins at (left, low), `edge` cells wide.
 double exit_distance(const Eigen::Vector2d& start, const Eigen::Vector2d& inverse, double left, double low,
@@ -59,56 +24,42 @@ double safe_inverse(double value) {
 
 }  // namespace
 
-Terrain::Terrain(const Landscape& landscape, const Area& area)
-    : min_x_m_(area.min_x_m),
-      min_y_m_(area.min_y_m),
-      width_(cells_of(area.max_x_m - area.min_x_m)),
-      height_(cells_of(area.max_y_m - area.min_y_m)) {
-  fill(landscape);
+Terrain::Terrain(const GroundMap& map)
+    : map_(map),
+      cell_m_(map.resolution_m),
+      cells_per_m_(1.0 / map.resolution_m),
+      width_(map.nodes_x - 1),
+      height_(map.nodes_y - 1) {
   build_maxima();
 }
 
-void Terrain::fill(const Landscape& landscape) {
-  const int columns = width_ + 1;
-  nodes_.resize(static_cast<std::size_t>(columns) * (height_ + 1));
-  const WaveTables waves(landscape.waves(), min_x_m_, columns);
-  const WaveTables ripples(landscape.ripples(), min_x_m_, columns);
-  std::vector<double> trail_y(columns);
-  for (int i = 0; i < columns; ++i) trail_y[i] = landscape.trail_y_m(min_x_m_ + i * kCell);
-
-  std::vector<double> row(columns);
-  for (int iy = 0; iy <= height_; ++iy) {
-    const double y = min_y_m_ + iy * kCell;
-    std::fill(row.begin(), row.end(), 0.0);
-    waves.add_row(y, row);
-    for (int i = 0; i < columns; ++i) row[i] *= Landscape::trail_factor(y - trail_y[i]);
-    ripples.add_row(y, row);
-    for (int i = 0; i < columns; ++i) {
-      const double x = min_x_m_ + i * kCell;
-      const double features = landscape.step_height_m(x, y) - landscape.ditch_depth_m(x, y);
-      nodes_[static_cast<std::size_t>(iy) * columns + i] = static_cast<float>(row[i] + features);
-    }
-  }
+Area Terrain::area() const {
+  return {map_.min_x_m, map_.min_y_m, map_.min_x_m + width_ * cell_m_, map_.min_y_m + height_ * cell_m_};
 }
 
 void Terrain::build_maxima() {
-  Maxima finer{width_ + 1, nodes_};
+  levels_.reserve(kTopLevel);
+  const std::vector<float>* finer = &map_.height_m;
+  int finer_width = width_ + 1, finer_height = height_ + 1;
   for (int level = 1; level <= kTopLevel; ++level) {
-    Maxima coarser{width_ >> 2 * level, {}};
-    const int rows = height_ >> 2 * level;
+    const int edge = 1 << 2 * level;
+    Maxima coarser{(width_ + edge - 1) / edge, (height_ + edge - 1) / edge, {}};
     // Level 1 shares the nodes on its borders with its neighbours; higher levels hold whole squares.
     const int span = level == 1 ? 5 : 4;
-    for (int iy = 0; iy < rows; ++iy)
+    for (int iy = 0; iy < coarser.height; ++iy)
       for (int ix = 0; ix < coarser.width; ++ix) {
         float highest = -std::numeric_limits<float>::infinity();
-        for (int y = 4 * iy; y < 4 * iy + span; ++y) {
-          const auto begin = finer.highest_m.begin() + static_cast<std::ptrdiff_t>(y) * finer.width + 4 * ix;
-          highest = std::max(highest, *std::max_element(begin, begin + span));
+        for (int y = 4 * iy; y < std::min(4 * iy + span, finer_height); ++y) {
+          const auto row = finer->begin() + static_cast<std::ptrdiff_t>(y) * finer_width;
+          highest =
+              std::max(highest, *std::max_element(row + 4 * ix, row + std::min(4 * ix + span, finer_width)));
         }
         coarser.highest_m.push_back(highest);
       }
-    levels_.push_back(coarser);
-    finer = std::move(coarser);
+    levels_.push_back(std::move(coarser));
+    finer = &levels_.back().highest_m;
+    finer_width = levels_.back().width;
+    finer_height = levels_.back().height;
   }
 }
 
@@ -121,19 +72,41 @@ double Terrain::patch_height(int ix, int iy, double cell_x, double cell_y) const
   return near_side + (cell_y - iy) * (far_side - near_side);
 }
 
+Terrain::Place Terrain::place(double x_m, double y_m) const {
+  const double x = std::clamp((x_m - map_.min_x_m) * cells_per_m_, 0.0, static_cast<double>(width_));
+  const double y = std::clamp((y_m - map_.min_y_m) * cells_per_m_, 0.0, static_cast<double>(height_));
+  const int ix = std::min(static_cast<int>(x), width_ - 1);
+  const int iy = std::min(static_cast<int>(y), height_ - 1);
+  return {ix, iy, x - ix, y - iy};
+}
+
 double Terrain::height_m(double x_m, double y_m) const {
-  const double cell_x = std::clamp((x_m - min_x_m_) * kCellsPerMetre, 0.0, static_cast<double>(width_));
-  const double cell_y = std::clamp((y_m - min_y_m_) * kCellsPerMetre, 0.0, static_cast<double>(height_));
-  const int ix = std::min(static_cast<int>(cell_x), width_ - 1);
-  const int iy = std::min(static_cast<int>(cell_y), height_ - 1);
-  return patch_height(ix, iy, cell_x, cell_y);
+  const Place at = place(x_m, y_m);
+  return patch_height(at.ix, at.iy, at.ix + at.fx, at.iy + at.fy);
+}
+
+Surface Terrain::surface_at(double x_m, double y_m) const {
+  if (map_.surface.empty()) return Surface::ground;
+  const Place at = place(x_m, y_m);
+  const int ix = at.ix + (at.fx < 0.5 ? 0 : 1);
+  const int iy = at.iy + (at.fy < 0.5 ? 0 : 1);
+  return map_.surface[static_cast<std::size_t>(iy) * (width_ + 1) + ix];
+}
+
+Eigen::Vector3d Terrain::normal_at(double x_m, double y_m) const {
+  const Place at = place(x_m, y_m);
+  const float* low = node(at.ix, at.iy);
+  const float* high = low + width_ + 1;
+  const double along_x = (1.0 - at.fy) * (low[1] - low[0]) + at.fy * (high[1] - high[0]);
+  const double along_y = (1.0 - at.fx) * (high[0] - low[0]) + at.fx * (high[1] - low[1]);
+  return Eigen::Vector3d(-along_x * cells_per_m_, -along_y * cells_per_m_, 1.0).normalized();
 }
 
 double Terrain::hit_in_cell(int ix, int iy, const Ray& ray, const Interval& part) const {
   const auto above_ground = [&](double distance) {
     const Eigen::Vector3d point = ray.origin + distance * ray.direction;
-    return point.z() - patch_height(ix, iy, (point.x() - min_x_m_) * kCellsPerMetre,
-                                    (point.y() - min_y_m_) * kCellsPerMetre);
+    return point.z() - patch_height(ix, iy, (point.x() - map_.min_x_m) * cells_per_m_,
+                                    (point.y() - map_.min_y_m) * cells_per_m_);
   };
   const double begin = above_ground(part.enter);
   if (begin <= 0.0) return part.enter;
@@ -151,9 +124,9 @@ double Terrain::hit_in_cell(int ix, int iy, const Ray& ray, const Interval& part
 }
 
 double Terrain::intersect(const Ray& ray, double max_range_m) const {
-  const Eigen::Vector2d start((ray.origin.x() - min_x_m_) * kCellsPerMetre,
-                              (ray.origin.y() - min_y_m_) * kCellsPerMetre);
-  const Eigen::Vector2d step = ray.direction.head<2>() * kCellsPerMetre;
+  const Eigen::Vector2d start((ray.origin.x() - map_.min_x_m) * cells_per_m_,
+                              (ray.origin.y() - map_.min_y_m) * cells_per_m_);
+  const Eigen::Vector2d step = ray.direction.head<2>() * cells_per_m_;
   const Eigen::Vector2d inverse(safe_inverse(step.x()), safe_inverse(step.y()));
   int level = kTopLevel;
   double distance = 0.0;

@@ -1,29 +1,47 @@
-// How the vehicle drives: along the trail at constant speed, pitching and rolling with the terrain.
+// How the vehicle drives: along a path at constant speed, pitching and rolling with the ground.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <vector>
 
 #include "core/pose.hpp"
-#include "tools/sim/landscape.hpp"
+#include "tools/sim/terrain.hpp"
 
 namespace gvom::sim {
 
+struct Drive {
+  double speed_mps = 5.0;
+  double base_height_m = 0.0;  ///< Of base_link above the ground (R9).
+};
+
 class Trajectory {
  public:
-  /// `length_m` of trail from x = 0; `base_height_m` is that of base_link above the ground (R9).
-  Trajectory(const Landscape& landscape, double speed_mps, double length_m, double base_height_m);
+  /// `path_m` holds at least two points; its corners are rounded off. Each wheel stands on the mean height of
+  /// a patch of ground, and bridges what is a hole or a face.
+  Trajectory(const Terrain& terrain, const std::vector<Eigen::Vector2d>& path_m, const Drive& drive);
 
-  /// T_odom_base `time_s` after the start of the drive; a little before and after the drive too.
+  /// T_odom_base `time_s` after the start of the drive; straight on for a little before and after it too.
   [[nodiscard]] Pose at(double time_s) const;
 
- private:
-  [[nodiscard]] double x_after(double driven_m) const;
+  /// From the path's first point to its end.
+  [[nodiscard]] double seconds() const { return length_m_ / drive_.speed_mps; }
 
-  const Landscape& landscape_;
-  double speed_mps_;
-  double base_height_m_;
-  std::vector<double> x_m_;  // of the trail's points at equal steps along it
+ private:
+  /// Where the vehicle is at one of equal steps along its way.
+  struct Station {
+    Eigen::Vector2d middle_m;
+    Eigen::Vector2d forward;  ///< Of length 1.
+    double ground_m;          ///< Mean height of the wheels.
+    double pitch_rad;
+    double roll_rad;
+  };
+
+  void lean_on(const Terrain& terrain);
+
+  Drive drive_;
+  double length_m_ = 0.0;
+  std::vector<Station> stations_;
 };
 
 /// Odometry that is off by `noise`: errors with a memory of one second, so that they are smooth within a

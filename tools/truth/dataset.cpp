@@ -59,7 +59,7 @@ tl::expected<void, std::string> read_layers(const std::string& directory, Truth&
   };
   return read("ground_lowest", truth.ground_lowest)
       .and_then([&] { return read("ground_mean", truth.ground_mean); })
-      .and_then([&] { return read("ditch_depth", truth.ditch_depth); })
+      .and_then([&] { return read("drop", truth.drop_m); })
       .and_then([&] { return read("clearance", truth.clearance); })
       .and_then([&] { return read("class", truth.classes); })
       .and_then([&] { return read("object", truth.object); });

@@ -33,7 +33,7 @@ struct Truth {
   std::array<std::int64_t, 2> origin{};  ///< World voxel (R1) of column (0, 0).
   int size_x = 0;
   int size_y = 0;
-  std::vector<float> ground_lowest, ground_mean, ditch_depth, clearance;
+  std::vector<float> ground_lowest, ground_mean, drop_m, clearance;
   std::vector<std::uint8_t> classes;
   std::vector<std::int32_t> object;
   std::vector<Object> objects;

@@ -168,7 +168,7 @@ void Evaluator::count_columns(Evaluation& out) const {
       out.bush_columns_soft.count(ever & kSoft);
       out.bush_columns_obstacle.count(ever & kObstacle);
     }
-    if (truth_.classes[at] == kDitch && truth_.ditch_depth[at] >= kDeepDitch) {
+    if (truth_.classes[at] == kDitch && truth_.drop_m[at] >= kDeepDitch) {
       out.ditch_negative.count(ever & kNegative);
       out.ditch_steep.count(ever & kSteep);
       out.ditch_hard.count(ever & kHard);

@@ -1,4 +1,4 @@
-#include "tools/sim/landscape.hpp"
+#include "tools/sim/scenes/trail_landscape.hpp"
 
 #include <algorithm>
 #include <cmath>
