@@ -93,6 +93,15 @@ Surface Terrain::surface_at(double x_m, double y_m) const {
   return map_.surface[static_cast<std::size_t>(iy) * (width_ + 1) + ix];
 }
 
+bool Terrain::is_sound(double x_m, double y_m) const {
+  if (map_.surface.empty()) return true;
+  const Place at = place(x_m, y_m);
+  const Surface* low = map_.surface.data() + static_cast<std::size_t>(at.iy) * (width_ + 1) + at.ix;
+  const Surface* high = low + width_ + 1;
+  const auto is_sound = [](Surface surface) { return surface != Surface::hole && surface != Surface::face; };
+  return is_sound(low[0]) && is_sound(low[1]) && is_sound(high[0]) && is_sound(high[1]);
+}
+
 Eigen::Vector3d Terrain::normal_at(double x_m, double y_m) const {
   const Place at = place(x_m, y_m);
   const float* low = node(at.ix, at.iy);

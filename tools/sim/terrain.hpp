@@ -30,6 +30,8 @@ class Terrain {
   [[nodiscard]] double height_m(double x_m, double y_m) const;
   /// What the ground is at the nearest node.
   [[nodiscard]] Surface surface_at(double x_m, double y_m) const;
+  /// Whether none of the four nodes around is of a hole or a face.
+  [[nodiscard]] bool is_sound(double x_m, double y_m) const;
   /// Upwards, of length 1.
   [[nodiscard]] Eigen::Vector3d normal_at(double x_m, double y_m) const;
 

@@ -12,7 +12,7 @@ namespace {
 constexpr double kStep = 0.05;      // metres between two stations
 constexpr double kExact = 1e-9;     // metres: less is rounding
 constexpr int kRunUpSteps = 120;    // of them before the start and after the end
-constexpr int kRounding = 20;       // steps to both sides that are averaged, twice, to round corners off
+constexpr int kRounding = 40;       // steps to both sides that are averaged, twice, to round corners off
 constexpr int kHalfBase = 12;       // wheels: steps before and behind base_link,
 constexpr double kHalfTrack = 0.5;  // and metres beside it
 constexpr double kHalfPatch = 0.2;  // of the ground that a wheel stands on
@@ -21,6 +21,14 @@ constexpr std::int64_t kMargin = 50'000'000;
 constexpr double kNoiseMemory = 1.0;  // seconds
 
 using Points = std::vector<Eigen::Vector2d>;
+
+/// Without corners that lie on the one before.
+Points distinct(const Points& corners) {
+  Points out;
+  for (const Eigen::Vector2d& corner : corners)
+    if (out.empty() || (corner - out.back()).norm() > kExact) out.push_back(corner);
+  return out;
+}
 
 /// Points at equal steps along a polyline, from its first point on, the first and last piece prolonged by
 /// `more_steps`.
@@ -32,7 +40,6 @@ Points resample(const Points& corners, int more_steps) {
   Eigen::Vector2d along = first;
   for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
     const double length = (corners[i + 1] - corners[i]).norm();
-    if (length < kExact) continue;
     along = (corners[i + 1] - corners[i]) / length;
     for (; into <= length + kExact; into += kStep) out.push_back(corners[i] + into * along);
     into -= length;
@@ -58,8 +65,7 @@ std::optional<double> wheel_height(const Terrain& terrain, const Eigen::Vector2d
   for (int i = 0; i < kPatchSamples * kPatchSamples; ++i) {
     const auto offset = [](int k) { return kHalfPatch * (2.0 * k / (kPatchSamples - 1.0) - 1.0); };
     const double x = wheel.x() + offset(i % kPatchSamples), y = wheel.y() + offset(i / kPatchSamples);
-    const Surface surface = terrain.surface_at(x, y);
-    if (surface == Surface::hole || surface == Surface::face) return std::nullopt;
+    if (!terrain.is_sound(x, y)) return std::nullopt;
     sum += terrain.height_m(x, y);
   }
   return sum / (kPatchSamples * kPatchSamples);
@@ -87,7 +93,7 @@ std::vector<double> bridged(const std::vector<std::optional<double>>& heights) {
 Trajectory::Trajectory(const Terrain& terrain, const std::vector<Eigen::Vector2d>& path_m, const Drive& drive)
     : drive_(drive) {
   // Once more by equal steps, for rounding cuts corners short. Each rounding takes points away at both ends.
-  const Points driven = resample(path_m, 2 * kRounding + 1);
+  const Points driven = resample(distinct(path_m), 2 * kRounding + 1);
   const Points way = resample(rounded(rounded(driven)), kRunUpSteps);
   length_m_ = static_cast<double>(way.size() - 2 * (kRunUpSteps + 1) - 1) * kStep;
   for (std::size_t i = 1; i + 1 < way.size(); ++i)

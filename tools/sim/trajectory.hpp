@@ -17,7 +17,7 @@ struct Drive {
 
 class Trajectory {
  public:
-  /// `path_m` holds at least two points; its corners are rounded off. Each wheel stands on the mean height of
+  /// `path_m` holds at least two places; its corners are rounded off. Each wheel stands on the mean height of
   /// a patch of ground, and bridges what is a hole or a face.
   Trajectory(const Terrain& terrain, const std::vector<Eigen::Vector2d>& path_m, const Drive& drive);
 
