@@ -24,7 +24,8 @@ inline constexpr std::uint8_t kMasonry = 50;
 inline constexpr std::uint8_t kPaint = 30;
 inline constexpr std::uint8_t kTyre = 5;
 inline constexpr std::uint8_t kCloth = 50;
-inline constexpr std::uint8_t kSoil = 30;
-inline constexpr std::uint8_t kHaze = 20;  ///< Dust and drops.
+inline constexpr std::uint8_t kDarkSoil = 15;    ///< The ground's goes from this
+inline constexpr std::uint8_t kBrightSoil = 60;  ///< to this, from patch to patch; the median is 26.
+inline constexpr std::uint8_t kHaze = 20;        ///< Dust and drops.
 
 }  // namespace gvom::sim

@@ -20,6 +20,13 @@ constexpr std::uint64_t kMirrorStream = kRainStream + 1;
 
 const Hit kNothing{kNever, 1.0, 0};
 
+/// That of the ground in patches of half a metre: more dark ones than bright ones.
+std::uint8_t soil_reflectivity(double x_m, double y_m) {
+  const auto patch = [](double value_m) { return static_cast<std::uint64_t>(std::llround(2.0 * value_m)); };
+  const double brightness = uniform(derive(mix(patch(x_m)), patch(y_m)));
+  return static_cast<std::uint8_t>(kDarkSoil + (kBrightSoil - kDarkSoil) * brightness * brightness);
+}
+
 /// How far a ray goes in what ends `hits_per_m` rays a metre.
 double free_path_m(std::uint64_t bits, double hits_per_m) {
   return -std::log(1.0 - uniform(bits)) / hits_per_m;
@@ -109,7 +116,7 @@ World::Leg World::cast_straight(const Ray& ray, const std::vector<Primitive>& wa
   const Surface surface = terrain_.surface_at(point.x(), point.y());
   if (surface == Surface::dark) return {kNothing, false};
   const double cosine = std::abs(terrain_.normal_at(point.x(), point.y()).dot(ray.direction));
-  return {{ground_m, cosine, kSoil}, surface == Surface::mirror};
+  return {{ground_m, cosine, soil_reflectivity(point.x(), point.y())}, surface == Surface::mirror};
 }
 
 /// The nearest body before `limit_m`.
