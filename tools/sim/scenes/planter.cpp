@@ -59,7 +59,7 @@ void Planter::add(Object object) {
 
 void Planter::trees(Random& random, int count, const Strip& strip) {
   scatter(
-      random, count, strip, [&] { return quantised(random.between(0.05, 0.3)); },
+      random, count, strip, [&] { return random.between(0.05, 0.3); },
       [&](const Eigen::Vector3d& foot, double radius) {
         world_.objects.push_back(make_tree(random, foot, draw_tree(random, radius)));
       });

@@ -1,9 +1,9 @@
 // What deceives or blinds a lidar on easy ground.
 #include <algorithm>
 
+#include "tools/sim/materials.hpp"
 #include "tools/sim/noise.hpp"
 #include "tools/sim/scenes/ground.hpp"
-#include "tools/sim/scenes/materials.hpp"
 #include "tools/sim/scenes/planter.hpp"
 #include "tools/sim/scenes/scenes.hpp"
 #include "tools/sim/scenes/things.hpp"

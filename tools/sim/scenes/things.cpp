@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/sim/materials.hpp"
 #include "tools/sim/scenes/course.hpp"
-#include "tools/sim/scenes/materials.hpp"
 
 namespace gvom::sim {
 namespace {

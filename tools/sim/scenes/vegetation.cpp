@@ -43,8 +43,7 @@ WorldData make_woods(const char* name, const SceneParameters& parameters, double
   Random random(derive(parameters.seed, 0xF04E57));
   const Strip woods{kTrailHalf, 50.0, 1.0};
   planter.scatter(
-      random, planter.count_for(woods, kM2PerTree), woods,
-      [&] { return quantised(random.between(0.05, 0.3)); },
+      random, planter.count_for(woods, kM2PerTree), woods, [&] { return random.between(0.05, 0.3); },
       [&](const Eigen::Vector3d& foot, double radius) {
         TreeShape shape = draw_tree(random, radius);
         const bool reaches_trail =
