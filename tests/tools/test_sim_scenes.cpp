@@ -108,7 +108,6 @@ TEST_CASE("the same seed gives the same bytes, another seed others where anythin
 
 TEST_CASE("nothing solid stands within a metre of the path below two metres") {
   for (const SceneEntry& entry : scene_library()) {
-    if (std::string(entry.name) == "trail") continue;  // its person is an object like any other
     INFO(entry.name);
     CHECK(ScenePath(scene(entry.name)).first_obstacle() == "");
   }
@@ -216,7 +215,7 @@ TEST_CASE("woods have trunks of all sizes, one for 12 to 15 square metres, and a
 
 TEST_CASE("things are as high as they say and stand on the ground") {
   for (const SceneEntry& entry : scene_library()) {
-    if (std::string(entry.name) == "trail") continue;
+    if (std::string(entry.name) == "trail") continue;  // a capsule's cap makes its trunks a little higher
     INFO(entry.name);
     const WorldData& world = scene(entry.name);
     for (const Object& object : world.objects) {
