@@ -89,7 +89,7 @@ class HandMadeScene {
   [[nodiscard]] evaluation::SceneFacts facts() const {
     std::vector<Eigen::Vector2d> path_m;
     for (int i = 0; i <= 400; ++i) path_m.emplace_back(0.1 * i, 0.0);
-    return find_facts(world, truth, path_m);
+    return evaluation::find_facts(world, truth, path_m);
   }
 
   sim::WorldData world;

@@ -77,16 +77,31 @@ void SweepSimulator::measure_column(int sweep, int column, Pixel* pixels) const 
 }
 
 void SweepSimulator::measure(int sweep, gvom::Sweep& out) const {
-  out.clear();
-  const Eigen::Vector3d origin(lidar_.beam_origin_m, 0.0, 0.0);
+  assemble(sweep, measure_ranges(sweep), out);
+}
+
+std::vector<std::uint16_t> SweepSimulator::measure_ranges(int sweep) const {
+  std::vector<std::uint16_t> range_units;
+  range_units.reserve(static_cast<std::size_t>(lidar_.columns) * lidar_.beams());
   std::vector<Pixel> pixels(lidar_.beams());
   for (int column = 0; column < lidar_.columns; ++column) {
     measure_column(sweep, column, pixels.data());
+    for (const Pixel& pixel : pixels) range_units.push_back(pixel.range_units);
+  }
+  return range_units;
+}
+
+void SweepSimulator::assemble(int sweep, const std::vector<std::uint16_t>& range_units,
+                              gvom::Sweep& out) const {
+  out.clear();
+  const Eigen::Vector3d origin(lidar_.beam_origin_m, 0.0, 0.0);
+  for (int column = 0; column < lidar_.columns; ++column) {
+    const std::uint16_t* pixels = range_units.data() + static_cast<std::ptrdiff_t>(column) * lidar_.beams();
     const Eigen::Isometry3d T_sensor_beams = column_to_sensor(lidar_, column);
     out.times_ns.push_back(lidar_.stamp_ns(sweep, column));
     for (int beam = 0; beam < lidar_.beams(); ++beam) {
-      if (pixels[beam].range_units == 0) continue;
-      const double range_m = pixels[beam].range_units * lidar_.range_unit_m - lidar_.beam_origin_m;
+      if (pixels[beam] == 0) continue;
+      const double range_m = pixels[beam] * lidar_.range_unit_m - lidar_.beam_origin_m;
       const Eigen::Vector3d point = T_sensor_beams * (origin + range_m * directions_[beam]);
       out.returns.push_back({point.x(), point.y(), point.z(), static_cast<std::uint32_t>(column)});
       out.stamp_ns = out.times_ns.back();

@@ -40,6 +40,11 @@ class SweepSimulator {
   /// ranges in the packets' units, a time for each column.
   void measure(int sweep, gvom::Sweep& out) const;
 
+  /// The two halves of `measure`: ranges in the packets' units, [column][beam], 0 where nothing came back;
+  /// and the sweep of such ranges.
+  [[nodiscard]] std::vector<std::uint16_t> measure_ranges(int sweep) const;
+  void assemble(int sweep, const std::vector<std::uint16_t>& range_units, gvom::Sweep& out) const;
+
   /// One column, `lidar.beams()` pixels. Cast from where the lidar is at the column's own stamp.
   void measure_column(int sweep, int column, Pixel* pixels) const;
 
