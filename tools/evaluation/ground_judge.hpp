@@ -15,7 +15,7 @@ class GroundJudge {
   /// `facts` must outlive this.
   explicit GroundJudge(const SceneFacts& facts) : facts_(facts) {}
 
-  /// @param sight asked for the ground within 30 m; empty: this frame does not count for it
+  /// Of some frames only the coverage of what is in sight is judged: it is what judging costs.
   void add(const Frame& frame, const Sight& sight);
   void fill(Figures& figures) const;
 
@@ -34,18 +34,22 @@ class GroundJudge {
     std::uint8_t flags;
     std::uint8_t visibility;
     float height;
+    Eigen::Vector2d middle_m;
   };
 
-  void judge_drivable(const Column& column);
+  void judge_drivable(const Frame& frame, const Sight& sight, const Column& column);
+  /// Whether a column is out of sight behind the edge of a hole: nobody could say what is there.
+  [[nodiscard]] bool is_behind_edge(const Frame& frame, const Sight& sight, const Column& column) const;
   void judge_height(const Column& column);
-  void judge_sight(const Frame& frame, const Sight& sight, const Column& column,
-                   const Eigen::Vector2d& middle_m);
+  void judge_coverage_in_sight(const Frame& frame, const Sight& sight, const Column& column);
+  [[nodiscard]] bool in_sight(const Frame& frame, const Sight& sight, const Column& column) const;
 
   const SceneFacts& facts_;
   ByRange negative_, hard_, steep_, lethal_;
   Share lethal_found_, grass_soft_, grass_hard_;
   Share coverage_near_, coverage_far_, sight_near_, sight_far_;
   HeightErrors errors_;
+  int frames_ = 0;
 };
 
 /// Frames in which something lethal that is drivable in truth lies on the 2 m wide way ahead.

@@ -7,8 +7,14 @@
 
 namespace gvom::evaluation {
 namespace {
-constexpr int kFramesPerSight = 4;  // the ground's lines of sight are what judging costs
+constexpr double kNeared_m = 4.5;  // scenes with a hole at the end stop 3 m before it
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+/// Whether the vehicle came so near to the hole that it must have been barred.
+bool was_neared(const std::vector<Approach>& approaches) {
+  return std::any_of(approaches.begin(), approaches.end(),
+                     [](const Approach& approach) { return approach.distance_m < kNeared_m; });
+}
+
 }  // namespace
 
 Judge::Judge(const SceneFacts& facts, const SensorGeometry& sensor, Sight sight)
@@ -22,7 +28,7 @@ Judge::Judge(const SceneFacts& facts, const SensorGeometry& sensor, Sight sight)
       approaches_(facts.holes.size()) {}
 
 void Judge::add(const Frame& frame) {
-  ground_.add(frame, frames_++ % kFramesPerSight == 0 ? sight_ : Sight{});
+  ground_.add(frame, sight_);
   path_.add(frame);
   objects_.add(frame, sight_);
   walkers_.add(frame);
@@ -58,7 +64,7 @@ void Judge::fill_holes(Figures& figures) const {
   double worst = HUGE_VAL;
   for (std::size_t i = 0; i < approaches_.size(); ++i) {
     const double barred_m = barred_from_m(approaches_[i]);
-    if (std::isnan(barred_m)) continue;
+    if (!was_neared(approaches_[i])) continue;
     const Hole& hole = facts_.holes[i];
     const double allowed_m = range_allowed_m(hole.width_m, sensor_.height_m, sensor_.beam_spacing_rad);
     if (barred_m / allowed_m >= worst) continue;

@@ -36,7 +36,6 @@ class Judge {
   ObjectJudge objects_;
   WalkerJudge walkers_;
   std::vector<std::vector<Approach>> approaches_;  // for each hole
-  int frames_ = 0;
 };
 
 }  // namespace gvom::evaluation

@@ -1,9 +1,13 @@
 #include "tools/evaluation/run.hpp"
 
 #include <chrono>
+#include <cstdio>
+#include <filesystem>
 #include <mutex>
+#include <system_error>
 #include <utility>
 
+#include "tools/evaluation/picture.hpp"
 #include "tools/sim/parallel.hpp"
 
 namespace gvom::evaluation {
@@ -25,6 +29,20 @@ StageOptions stage_options(const Plan& plan, const DriveKind& kind) {
   return options;
 }
 
+/// Draws the scene as the drive's map shows it.
+tl::expected<void, std::string> draw(const Plan& plan, const Stage& stage, const InstructiveFrame& kept,
+                                     const Row& row) {
+  if (kept.empty()) return {};
+  const double to_hole_m =
+      stage.facts().holes.empty() ? 0.0 : stage.facts().holes.front().rim_driven_m - kept.frame().driven_m;
+  char title[160];
+  std::snprintf(title, sizeof title,
+                to_hole_m > 0.0 ? "%s, %.1f m driven, %.1f m before the rim" : "%s, %.1f m driven",
+                row.name().c_str(), kept.frame().driven_m, to_hole_m);
+  return draw_scene(stage.facts(), kept.frame(), title)
+      .write_png(plan.pictures_directory + "/" + row.scene + ".png");
+}
+
 Rows run_scene(const Plan& plan, const std::string& scene) {
   std::vector<Row> rows;
   for (const DriveKind& kind : plan.drives) {
@@ -33,8 +51,12 @@ Rows run_scene(const Plan& plan, const std::string& scene) {
     for (const sim::Sensor sensor : kind.sensors) {
       Row row{scene, name_of(sensor), kind.name, {}};
       const DriveOptions options{sensor, kind.odometry_noise, plan.seed, plan.frames, plan.cache_directory};
-      const auto figures = drive(**stage, plan.vehicle, options);
+      InstructiveFrame kept((*stage)->facts(), plan.frames);
+      const bool drawn = !plan.pictures_directory.empty() && rows.empty();  // one picture a scene
+      const auto figures = drive(**stage, plan.vehicle, options,
+                                 drawn ? Watch([&](const Frame& frame) { kept.see(frame); }) : Watch());
       if (!figures) return tl::unexpected(row.name() + ": " + figures.error());
+      if (const auto done = draw(plan, **stage, kept, row); !done) return tl::unexpected(done.error());
       row.figures = *figures;
       rows.push_back(std::move(row));
     }
@@ -45,6 +67,11 @@ Rows run_scene(const Plan& plan, const std::string& scene) {
 }  // namespace
 
 Rows run(const Plan& plan, const Progress& progress) {
+  if (!plan.pictures_directory.empty()) {
+    std::error_code error;
+    std::filesystem::create_directories(plan.pictures_directory, error);
+    if (error) return tl::unexpected(plan.pictures_directory + ": " + error.message());
+  }
   const auto count = static_cast<int>(plan.scenes.size());
   std::vector<Rows> results(plan.scenes.size());
   std::mutex one_at_a_time;
