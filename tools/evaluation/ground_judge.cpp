@@ -7,7 +7,6 @@ namespace gvom::evaluation {
 namespace {
 
 constexpr double kWalkerRoom_m = 1.0;
-constexpr double kAboveGround_m = 0.05;
 constexpr int kFramesPerSight = 4;
 
 bool is_class(const Truth& truth, std::size_t column, ObjectClass expected) {
@@ -32,8 +31,8 @@ void GroundJudge::add(const Frame& frame, const Sight& sight) {
   const Truth& truth = facts_.truth;
   const bool asks_sight = frames_++ % kFramesPerSight == 0;
   for_each_column(truth, frame, [&](std::size_t at, std::size_t mine, const Eigen::Vector2d& middle_m) {
-    const Column column{
-        at, frame.ahead_m(middle_m), frame.flags[mine], frame.visibility[mine], frame.height[mine], middle_m};
+    const Column column{at, frame.ahead_m(middle_m), frame.flags[mine], frame.visibility[mine],
+                        frame.height[mine]};
     if (column.visibility == 0 && column.ahead_m > kFar_m) return;
     if (holds_walker(facts_, frame, middle_m)) return;
     if (truth.drivable[at]) judge_drivable(frame, sight, column);
@@ -52,32 +51,15 @@ void GroundJudge::judge_drivable(const Frame& frame, const Sight& sight, const C
   if (column.ahead_m <= kNear_m) coverage_near_.count(seen);
   if (column.ahead_m <= kFar_m) coverage_far_.count(seen);
   if (!is_observed(column.visibility)) return;
-  if (column.flags & kNegative && is_behind_edge(frame, sight, column)) return;
+  if (column.flags & kNegative && is_behind_edge(facts_, frame, sight, column.truth)) return;
   negative_.count(column.ahead_m, column.flags & kNegative);
   hard_.count(column.ahead_m, column.flags & kHard);
   steep_.count(column.ahead_m, column.flags & kSteep);
   lethal_.count(column.ahead_m, column.flags & kLethalFlags);
 }
 
-bool GroundJudge::in_sight(const Frame& frame, const Sight& sight, const Column& column) const {
-  const double height_m = facts_.truth.ground_mean[column.truth] + kAboveGround_m;
-  return std::isinf(sight(frame.sensor_m, {column.middle_m.x(), column.middle_m.y(), height_m}));
-}
-
-bool GroundJudge::is_behind_edge(const Frame& frame, const Sight& sight, const Column& column) const {
-  if (facts_.holes.empty()) return false;
-  const Eigen::Vector2d way = column.middle_m - frame.base_m;
-  const double step_m = facts_.truth.resolution_m;
-  for (double way_m = way.norm() - step_m; way_m > 0.0; way_m -= step_m) {
-    const std::int64_t at = column_at(facts_.truth, frame.base_m + way_m * way.normalized());
-    if (at < 0 || facts_.truth.drop_m[static_cast<std::size_t>(at)] < kShallowestHole_m) continue;
-    return !in_sight(frame, sight, column);
-  }
-  return false;
-}
-
 void GroundJudge::judge_coverage_in_sight(const Frame& frame, const Sight& sight, const Column& column) {
-  if (column.ahead_m > kFar_m || !in_sight(frame, sight, column)) return;
+  if (column.ahead_m > kFar_m || !ground_in_sight(facts_, frame, sight, column.truth)) return;
   const bool seen = ground_is_seen(column.visibility);
   sight_far_.count(seen);
   if (column.ahead_m <= kNear_m) sight_near_.count(seen);

@@ -34,15 +34,11 @@ class GroundJudge {
     std::uint8_t flags;
     std::uint8_t visibility;
     float height;
-    Eigen::Vector2d middle_m;
   };
 
   void judge_drivable(const Frame& frame, const Sight& sight, const Column& column);
-  /// Whether a column is out of sight behind the edge of a hole: nobody could say what is there.
-  [[nodiscard]] bool is_behind_edge(const Frame& frame, const Sight& sight, const Column& column) const;
   void judge_height(const Column& column);
   void judge_coverage_in_sight(const Frame& frame, const Sight& sight, const Column& column);
-  [[nodiscard]] bool in_sight(const Frame& frame, const Sight& sight, const Column& column) const;
 
   const SceneFacts& facts_;
   ByRange negative_, hard_, steep_, lethal_;

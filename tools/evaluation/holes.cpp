@@ -114,7 +114,11 @@ void measure(Hole& hole, const Nodes& nodes, const std::vector<Node>& members, d
       [](const Lane& a, const Lane& b) { return std::abs(a.offset_m) < std::abs(b.offset_m); });
   if (middle != hole.lanes.end()) hole.width_m = middle->far_rim_m - middle->rim_m;
   const Node before = nodes.nearest(hole.rim_point_m + (rim_m - kBeforeRim_m) * hole.forward);
-  if (nodes.contains(before)) hole.depth_m = nodes.height_m(before) - lowest_m;
+  if (!nodes.contains(before)) return;
+  hole.depth_m = nodes.height_m(before) - lowest_m;
+  const Node beyond = nodes.nearest(hole.rim_point_m + (rim_m + hole.width_m + kBeforeRim_m) * hole.forward);
+  if (nodes.contains(beyond) && nodes.height_m(beyond) < nodes.height_m(before) - 0.5 * hole.depth_m)
+    hole.open = true;
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ struct Hole {
   double rim_driven_m = 0.0;  ///< Way of base_link along the path to the rim, the first that 2 m width meet.
   double depth_m = 0.0;       ///< Below the ground half a metre before the rim.
   double width_m = 0.0;       ///< Along the lane nearest to the path's middle, at most `kWidestHole_m`.
-  bool open = false;          ///< Wider than that in some lane: a cliff, a bank.
+  bool open = false;          ///< Wider than that in some lane, or with no far side as high: a cliff, a bank.
   std::vector<Lane> lanes;    ///< At offsets of -4 to 4 m: those into whose middle metre it reaches.
 };
 

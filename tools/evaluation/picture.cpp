@@ -50,7 +50,7 @@ const std::vector<Swatch> kMapLegend = {{snapshot::kHardColour, "HARD"},
 const std::vector<Swatch> kErrorLegend = {
     {snapshot::kHardColour, "false HARD"},   {snapshot::kNegativeColour, "false NEGATIVE"},
     {snapshot::kSteepColour, "false STEEP"}, {kMissedColour, "lethal, missed"},
-    {kRightColour, "drivable, and free"},    {kOtherColour, "neither"},
+    {kRightColour, "drivable, and free"},    {kOtherColour, "not judged"},
     {snapshot::kUnknown, "not observed"}};
 
 /// One column of the picture: its place in truth and map, -1 outside.
@@ -138,7 +138,9 @@ Rgb class_colour(ObjectClass what) {
 
 Rgb truth_colour(const Truth& truth, const Place& place) {
   if (place.truth < 0) return snapshot::kUnknown;
-  return shade(class_colour(static_cast<ObjectClass>(truth.classes[place.truth])),
+  const auto what = static_cast<ObjectClass>(truth.classes[place.truth]);
+  if (what != ObjectClass::ground && what != ObjectClass::overhang) return class_colour(what);
+  return shade(class_colour(what),
                relief(truth.ground_lowest, place.truth, truth.size_x, truth.resolution_m));
 }
 
@@ -156,14 +158,18 @@ Rgb map_colour(const Truth& truth, const Frame& frame, const Place& place) {
                              : shade(snapshot::kPlainGround, std::clamp(1.0 + 0.6 * slope_x, 0.5, 1.25));
 }
 
-Rgb error_colour(const Truth& truth, const Frame& frame, const Place& place) {
+Rgb error_colour(const SceneFacts& facts, const Sight& sight, const Frame& frame, const Place& place) {
+  const Truth& truth = facts.truth;
   if (place.map < 0 || place.truth < 0 || !is_observed(frame.visibility[place.map]))
     return snapshot::kUnknown;
   const std::uint8_t flags = frame.flags[place.map];
   if (truth.lethal[place.truth]) return flags & kLethalFlags ? kRightColour : kMissedColour;
   if (!truth.drivable[place.truth]) return kOtherColour;
   if (flags & kHard) return snapshot::kHardColour;
-  if (flags & kNegative) return snapshot::kNegativeColour;
+  if (flags & kNegative)
+    return is_behind_edge(facts, frame, sight, static_cast<std::size_t>(place.truth))
+               ? kOtherColour
+               : snapshot::kNegativeColour;
   if (flags & kSteep) return snapshot::kSteepColour;
   return kRightColour;
 }
@@ -216,7 +222,7 @@ void InstructiveFrame::see(const Frame& frame) {
   frame_.visibility = visibility_.data();
 }
 
-Canvas draw_scene(const SceneFacts& facts, const Frame& frame, const std::string& title) {
+Canvas draw_scene(const SceneFacts& facts, const Sight& sight, const Frame& frame, const std::string& title) {
   constexpr int kPanel = kShown * kZoom + kMargin;
   Canvas canvas(kMargin + 3 * kPanel, kTop + kShown * kZoom + kLegend, snapshot::kPaper);
   canvas.text({kMargin, 34}, title, {22, snapshot::kInk, true});
@@ -231,7 +237,8 @@ Canvas draw_scene(const SceneFacts& facts, const Frame& frame, const std::string
   };
   panel(0, "what is there", kTruthLegend, [&](const Place& p) { return truth_colour(truth, p); });
   panel(1, "what the map says", kMapLegend, [&](const Place& p) { return map_colour(truth, frame, p); });
-  panel(2, "where it is wrong", kErrorLegend, [&](const Place& p) { return error_colour(truth, frame, p); });
+  panel(2, "where it is wrong", kErrorLegend,
+        [&](const Place& p) { return error_colour(facts, sight, frame, p); });
   return canvas;
 }
 

@@ -37,6 +37,7 @@ class InstructiveFrame {
 
 /// Three panels of the 72 m around the vehicle, +x to the right: the truth, the map, the errors; with a
 /// legend.
-snapshot::Canvas draw_scene(const SceneFacts& facts, const Frame& frame, const std::string& title);
+snapshot::Canvas draw_scene(const SceneFacts& facts, const Sight& sight, const Frame& frame,
+                            const std::string& title);
 
 }  // namespace gvom::evaluation

@@ -39,7 +39,7 @@ tl::expected<void, std::string> draw(const Plan& plan, const Stage& stage, const
   std::snprintf(title, sizeof title,
                 to_hole_m > 0.0 ? "%s, %.1f m driven, %.1f m before the rim" : "%s, %.1f m driven",
                 row.name().c_str(), kept.frame().driven_m, to_hole_m);
-  return draw_scene(stage.facts(), kept.frame(), title)
+  return draw_scene(stage.facts(), stage.sight(), kept.frame(), title)
       .write_png(plan.pictures_directory + "/" + row.scene + ".png");
 }
 

@@ -9,6 +9,7 @@ namespace {
 constexpr double kThinnestTrunk_m = 0.075;  // radius
 constexpr double kTrunkMargin_m = 0.05;
 constexpr double kHalfStrip_m = 1.0;
+constexpr double kAboveGround_m = 0.05;
 constexpr double kBarMargin_m = 0.8;  // of a hole's rims
 constexpr float kNowhere = std::numeric_limits<float>::quiet_NaN();
 
@@ -152,6 +153,24 @@ std::uint8_t flags_at(const Truth& truth, const Frame& frame, std::size_t column
 std::uint8_t visibility_at(const Truth& truth, const Frame& frame, std::size_t column) {
   const std::int64_t at = in_frame(truth, frame, column);
   return at < 0 ? std::uint8_t{0} : frame.visibility[at];
+}
+
+bool ground_in_sight(const SceneFacts& facts, const Frame& frame, const Sight& sight, std::size_t column) {
+  const Eigen::Vector2d middle_m = middle_of(facts.truth, column);
+  const double height_m = facts.truth.ground_mean[column] + kAboveGround_m;
+  return std::isinf(sight(frame.sensor_m, {middle_m.x(), middle_m.y(), height_m}));
+}
+
+bool is_behind_edge(const SceneFacts& facts, const Frame& frame, const Sight& sight, std::size_t column) {
+  if (facts.holes.empty()) return false;
+  const Eigen::Vector2d way = middle_of(facts.truth, column) - frame.base_m;
+  const double step_m = facts.truth.resolution_m;
+  for (double way_m = way.norm() - step_m; way_m > 0.0; way_m -= step_m) {
+    const std::int64_t at = column_at(facts.truth, frame.base_m + way_m * way.normalized());
+    if (at < 0 || facts.truth.drop_m[static_cast<std::size_t>(at)] < kShallowestHole_m) continue;
+    return !ground_in_sight(facts, frame, sight, column);
+  }
+  return false;
 }
 
 }  // namespace gvom::evaluation

@@ -72,4 +72,9 @@ std::uint8_t flags_at(const Truth& truth, const Frame& frame, std::size_t column
 /// The frame's visibility there; unobserved where it does not reach.
 std::uint8_t visibility_at(const Truth& truth, const Frame& frame, std::size_t column);
 
+/// Whether the ground of a column can be seen from the sensor.
+bool ground_in_sight(const SceneFacts& facts, const Frame& frame, const Sight& sight, std::size_t column);
+/// Whether a column is out of sight behind the edge of a hole: nobody could say what is there.
+bool is_behind_edge(const SceneFacts& facts, const Frame& frame, const Sight& sight, std::size_t column);
+
 }  // namespace gvom::evaluation
