@@ -180,3 +180,18 @@ TEST_CASE("lethal columns that are found count by any lethal flag") {
   map.flags[map.at(scene.column(8.6, 2.2))] = kSoft;
   CHECK(test::judge(scene.facts(), {map.frame(0.0)})[Figure::lethal_found_near] == Approx(100.0 / 3));
 }
+
+TEST_CASE("NEGATIVE out of sight behind the edge of a hole on the way is not judged, in sight it is false") {
+  HandMadeScene scene;
+  scene.dig(8.0, 10.0, -12.0, 12.0, 1.0);
+  HandMadeMap map(scene.truth);
+  map.flags[map.at(scene.column(10.6, 3.0))] = kNegative;
+  const SceneFacts facts = scene.facts();
+  const auto false_share = [&](const Sight& sight) {
+    Judge judge(facts, {1.7, 0.0125}, sight);
+    judge.add(map.frame(0.0));
+    return judge.result()[Figure::negative_near];
+  };
+  CHECK(false_share(test::open_sight) > 0.0);
+  CHECK(false_share([](const auto&, const auto&) { return 1.0; }) == 0.0);
+}

@@ -17,7 +17,7 @@ bool is_class(const Truth& truth, std::size_t column, ObjectClass expected) {
 
 bool holds_walker(const SceneFacts& facts, const Frame& frame, const Eigen::Vector2d& middle_m) {
   return std::any_of(facts.walkers.begin(), facts.walkers.end(), [&](const sim::Object* walker) {
-    return (place_at(walker->track, frame.time_s) - middle_m).norm() < kWalkerRoom_m;
+    return (place_at(*walker, frame.time_s) - middle_m).norm() < kWalkerRoom_m;
   });
 }
 

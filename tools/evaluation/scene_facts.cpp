@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "tools/sim/world.hpp"
+
 namespace gvom::evaluation {
 namespace {
 
@@ -120,14 +122,9 @@ SceneFacts find_facts(const sim::WorldData& world, const Truth& truth,
   return facts;
 }
 
-Eigen::Vector2d place_at(const std::vector<sim::TrackPoint>& track, double time_s) {
-  const auto after =
-      std::find_if(track.begin(), track.end(), [&](const sim::TrackPoint& p) { return p.time_s >= time_s; });
-  if (after == track.begin()) return {after->x_m, after->y_m};
-  const sim::TrackPoint& before = *(after - 1);
-  if (after == track.end()) return {before.x_m, before.y_m};
-  const double part = (time_s - before.time_s) / (after->time_s - before.time_s);
-  return {before.x_m + part * (after->x_m - before.x_m), before.y_m + part * (after->y_m - before.y_m)};
+Eigen::Vector2d place_at(const sim::Object& walker, double time_s) {
+  const sim::TrackPoint place = sim::place_on(walker.track, time_s);
+  return {place.x_m, place.y_m};
 }
 
 std::int64_t column_at(const Truth& truth, const Eigen::Vector2d& point_m) {

@@ -43,8 +43,8 @@ struct SceneFacts {
 SceneFacts find_facts(const sim::WorldData& world, const Truth& truth,
                       const std::vector<Eigen::Vector2d>& path_m);
 
-/// Where a walker is, straight and steady between the points of its track.
-Eigen::Vector2d place_at(const std::vector<sim::TrackPoint>& track, double time_s);
+/// Where a walker is at a time after the start of the drive.
+Eigen::Vector2d place_at(const sim::Object& walker, double time_s);
 
 /// The column of the truth that holds a point, -1 outside.
 std::int64_t column_at(const Truth& truth, const Eigen::Vector2d& point_m);

@@ -37,7 +37,7 @@ WalkerJudge::WalkerJudge(const SceneFacts& facts) : facts_(facts) {
     std::map<std::size_t, double> left_s;
     const double begin_s = walker->track.front().time_s, end_s = walker->track.back().time_s;
     for (double time_s = begin_s; time_s < end_s; time_s += kStep_s)
-      for (const std::size_t column : columns_around(facts.truth, place_at(walker->track, time_s), kBody_m))
+      for (const std::size_t column : columns_around(facts.truth, place_at(*walker, time_s), kBody_m))
         if (is_free(facts.truth, column)) left_s[column] = time_s;
     Way way{walker, {}};
     for (const auto& [column, time_s] : left_s) way.columns.push_back({column, time_s});
@@ -46,7 +46,7 @@ WalkerJudge::WalkerJudge(const SceneFacts& facts) : facts_(facts) {
 }
 
 void WalkerJudge::judge_presence(const Frame& frame, const sim::Object& walker) {
-  const Eigen::Vector2d place_m = place_at(walker.track, frame.time_s);
+  const Eigen::Vector2d place_m = place_at(walker, frame.time_s);
   if (frame.ahead_m(place_m) > kNear_m) return;
   const std::vector<std::size_t> columns = columns_around(facts_.truth, place_m, kReach_m);
   found_.count(std::any_of(columns.begin(), columns.end(), [&](std::size_t column) {
@@ -57,7 +57,7 @@ void WalkerJudge::judge_presence(const Frame& frame, const sim::Object& walker) 
 void WalkerJudge::add(const Frame& frame) {
   for (Way& way : ways_) {
     judge_presence(frame, *way.walker);
-    const Eigen::Vector2d walker_m = place_at(way.walker->track, frame.time_s);
+    const Eigen::Vector2d walker_m = place_at(*way.walker, frame.time_s);
     for (Left& left : way.columns) {
       const Eigen::Vector2d middle_m = middle_of(facts_.truth, left.column);
       // The walker's own columns, and those beside them, show the walker and no ghost.
