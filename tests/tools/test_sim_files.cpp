@@ -9,7 +9,7 @@
 #include "tests/tools/sim_worlds.hpp"
 #include "tests/tools/temporary_folder.hpp"
 #include "tools/common/npy.hpp"
-#include "tools/sim/scene_library.hpp"
+#include "tools/sim/scenes/trail.hpp"
 #include "tools/sim/simulate.hpp"
 #include "tools/sim/world_files.hpp"
 
@@ -57,7 +57,7 @@ std::string record(const WorldData& data) {
 
 TEST_CASE("a world that was saved and read back gives the same recording, byte for byte") {
   const TemporaryFolder folder;
-  WorldData data = *build_scene("trail", {3, 20.0, 5.0});
+  WorldData data = make_trail({3, 20.0, 5.0});
   data.rain_hits_per_m = 0.001;
   add(data, Kind::car, box({8.1, -4.3, 0.7}, {2.03, 0.81, 0.507}, 0.3), 1.2);
   Body egg = box({9.0, 5.0, 0.7}, {1.1, 0.4, 0.5}, 1.0 / 3.0);

@@ -8,7 +8,7 @@
 #include "services/common/odometry_file.hpp"
 #include "services/ingest/source.hpp"
 #include "tests/tools/temporary_folder.hpp"
-#include "tools/sim/scene_library.hpp"
+#include "tools/sim/scenes/trail.hpp"
 #include "tools/sim/simulate.hpp"
 
 using namespace gvom::sim;
@@ -40,7 +40,7 @@ RecordingOptions short_drive() {
 }
 
 const World& trail() {
-  static const World world(*build_scene("trail", {1, path_length_m(two_lidars(), short_drive()), 5.0}));
+  static const World world(make_trail({1, path_length_m(two_lidars(), short_drive()), 5.0}));
   return world;
 }
 
@@ -165,7 +165,7 @@ TEST_CASE("a drive that is longer than its path ends with the path") {
   RecordingOptions options = short_drive();
   options.seconds = 60.0;
   options.speed_mps = 10.0;
-  WorldData data = *build_scene("trail", {1, 4.0, 5.0});
+  WorldData data = make_trail({1, 4.0, 5.0});
   data.path_m = {{0.0, 0.0}, {4.0, 0.0}};
   const World world(std::move(data));
   const auto made = simulate(two_lidars(), world, options, folder.path());

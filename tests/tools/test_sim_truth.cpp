@@ -5,7 +5,7 @@
 
 #include "tests/tools/sim_worlds.hpp"
 #include "tools/sim/ground_truth.hpp"
-#include "tools/sim/scene_library.hpp"
+#include "tools/sim/scenes/trail.hpp"
 #include "tools/sim/scenes/trail_landscape.hpp"
 #include "tools/sim/trajectory.hpp"
 
@@ -170,7 +170,7 @@ TEST_CASE("columns through which a walker comes are a person's, and stay drivabl
 }
 
 TEST_CASE("the trail's truth has the ditch 1.2 m deep and 2 m wide, and the vehicle bridges it") {
-  const Truth truth(*build_scene("trail", {7, 40.0, 5.0}));
+  const Truth truth(make_trail({7, 40.0, 5.0}));
   const Landscape landscape(7);
   const double middle = landscape.trail_y_m(kDitchX);
   const Place bottom = truth.at(kDitchX, middle);
@@ -190,7 +190,7 @@ TEST_CASE("the trail's truth has the ditch 1.2 m deep and 2 m wide, and the vehi
 }
 
 TEST_CASE("trees and rocks stand in the trail's truth where they stand in the world") {
-  const Truth truth(*build_scene("trail", {7, 20.0, 5.0}));
+  const Truth truth(make_trail({7, 20.0, 5.0}));
   int judged = 0;
   for (const Object& object : truth.world().data().objects) {
     if (object.kind == Kind::branch || object.kind == Kind::walker) continue;

@@ -7,7 +7,7 @@
 #include "tests/tools/sim_worlds.hpp"
 #include "tools/sim/materials.hpp"
 #include "tools/sim/noise.hpp"
-#include "tools/sim/scene_library.hpp"
+#include "tools/sim/scenes/trail.hpp"
 
 using namespace gvom::sim;
 using namespace gvom::test;
@@ -17,7 +17,7 @@ namespace {
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 const World& trail() {
-  static const World the_world(*build_scene("trail", {7, 20.0, 5.0}));
+  static const World the_world(make_trail({7, 20.0, 5.0}));
   return the_world;
 }
 

@@ -7,7 +7,7 @@
 #include "services/common/vehicle_config.hpp"
 #include "tests/tools/temporary_folder.hpp"
 #include "tools/common/npy.hpp"
-#include "tools/sim/scene_library.hpp"
+#include "tools/sim/scenes/trail.hpp"
 #include "tools/sim/simulate.hpp"
 #include "tools/truth/report.hpp"
 
@@ -156,7 +156,7 @@ TEST_CASE("the simulator's truth and gvom-map's files are read as they are writt
   gvom::services::VehicleConfig vehicle;
   vehicle.lidars.resize(1);
   vehicle.lidars[0].name = "top";
-  const gvom::sim::World world(*gvom::sim::build_scene("trail", {1, 1.0, 5.0}));
+  const gvom::sim::World world(gvom::sim::make_trail({1, 1.0, 5.0}));
   REQUIRE(gvom::sim::simulate(vehicle, world, options, folder.path()));
   const auto truth = read_truth(folder.path());
   REQUIRE(truth);

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "tools/sim/scenes/scenes.hpp"
+#include "tools/sim/scenes/trail.hpp"
 
 namespace gvom::sim {
 namespace {
@@ -38,6 +39,7 @@ std::string unknown_scene(const std::string& name) {
 
 const std::vector<SceneEntry>& scene_library() {
   static const std::vector<SceneEntry> scenes{
+      {"trail", "woods along a trail, with a ditch, a step, a branch and a person", make_trail},
       {"flat", "flat ground and nothing else", make_flat},
       {"hills", "rolling hills to 25 degrees with ripples, all of it drivable", make_hills},
       {"ramp-up", "a ramp of 15 degrees up, 20 m long, after 15 m of flat ground", make_ramp_up},
