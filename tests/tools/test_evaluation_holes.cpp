@@ -23,6 +23,15 @@ TEST_CASE("a ditch across the path has its width, its depth, its rim and nine la
   CHECK(hole.lanes.size() == 9);
 }
 
+TEST_CASE("an oblique ditch is as wide as it is along the path, not across a whole lane") {
+  HandMadeScene scene;
+  for (int i = -110; i < 110; ++i)  // turned by 45 degrees
+    scene.dig(30.0 + 0.1 * i, 31.9 + 0.1 * i, 0.1 * i - 0.01, 0.1 * i + 0.01, 1.0);
+  REQUIRE(scene.facts().holes.size() == 1);
+  CHECK(scene.facts().holes[0].width_m == Approx(2.0).margin(0.25));
+  CHECK(scene.facts().holes[0].lanes[4].far_rim_m - scene.facts().holes[0].lanes[4].rim_m > 2.8);
+}
+
 TEST_CASE("a cliff has no far side, a dip is no hole, and a hole beside the path is nobody's") {
   HandMadeScene cliff;
   cliff.dig(35.0, 44.0, -12.0, 12.0, 5.0);

@@ -78,20 +78,39 @@ std::vector<Eigen::Vector2d> lengthen(std::vector<Eigen::Vector2d> path_m) {
   return path_m;
 }
 
-/// Part of the hole in a lane, from where the path met it; nearer parts of a hole that goes on elsewhere (a
-/// bend of a ditch) count up to `kWidestHole_m` before and after.
-void add_lane(Hole& hole, const std::vector<Eigen::Vector2d>& along, double offset_m, double node_m) {
-  constexpr double kFar = std::numeric_limits<double>::infinity();
-  Lane lane{offset_m, kFar, -kFar};
+/// Where a hole begins and ends along a strip, seen from where the path met it; what belongs to it further
+/// off (a bend of a ditch) does not count. Begins after it ends where the hole is not in the strip.
+struct Extent {
+  double from_m = std::numeric_limits<double>::infinity();
+  double to_m = -std::numeric_limits<double>::infinity();
+};
+Extent extent_of(const std::vector<Eigen::Vector2d>& along, double offset_m, double half_width_m,
+                 double node_m) {
+  Extent extent;
   for (const Eigen::Vector2d& at : along) {
-    if (std::abs(at.y() - offset_m) > kMiddle_m || std::abs(at.x()) > 2.0 * kWidestHole_m) continue;
-    lane.rim_m = std::min(lane.rim_m, at.x() - 0.5 * node_m);
-    lane.far_rim_m = std::max(lane.far_rim_m, at.x() + 0.5 * node_m);
+    if (std::abs(at.y() - offset_m) > half_width_m || std::abs(at.x()) > 2.0 * kWidestHole_m) continue;
+    extent.from_m = std::min(extent.from_m, at.x() - 0.5 * node_m);
+    extent.to_m = std::max(extent.to_m, at.x() + 0.5 * node_m);
   }
-  if (lane.rim_m == kFar) return;
-  hole.open = hole.open || lane.far_rim_m - lane.rim_m > kWidestHole_m;
-  lane.far_rim_m = std::min(lane.far_rim_m, lane.rim_m + kWidestHole_m);
-  hole.lanes.push_back(lane);
+  return extent;
+}
+
+void add_lane(Hole& hole, const std::vector<Eigen::Vector2d>& along, double offset_m, double node_m) {
+  const Extent extent = extent_of(along, offset_m, kMiddle_m, node_m);
+  if (extent.from_m > extent.to_m) return;
+  hole.open = hole.open || extent.to_m - extent.from_m > kWidestHole_m;
+  hole.lanes.push_back({offset_m, extent.from_m, std::min(extent.to_m, extent.from_m + kWidestHole_m)});
+}
+
+/// Along the middle line of the lane nearest to the path's: an oblique ditch is wider across a whole lane.
+double width_of(const Hole& hole, const std::vector<Eigen::Vector2d>& along, double node_m) {
+  const auto middle = std::min_element(
+      hole.lanes.begin(), hole.lanes.end(),
+      [](const Lane& a, const Lane& b) { return std::abs(a.offset_m) < std::abs(b.offset_m); });
+  if (middle == hole.lanes.end()) return 0.0;
+  const Extent narrow = extent_of(along, middle->offset_m, node_m, node_m);
+  const Extent extent = narrow.from_m < narrow.to_m ? narrow : Extent{middle->rim_m, middle->far_rim_m};
+  return std::min(extent.to_m - extent.from_m, kWidestHole_m);
 }
 
 void measure(Hole& hole, const Nodes& nodes, const std::vector<Node>& members, double node_m) {
@@ -109,10 +128,7 @@ void measure(Hole& hole, const Nodes& nodes, const std::vector<Node>& members, d
   hole.rim_driven_m += rim_m;
   for (double offset_m = -kOutermostLane_m; offset_m <= kOutermostLane_m; offset_m += 1.0)
     add_lane(hole, along, offset_m, node_m);
-  const auto middle = std::min_element(
-      hole.lanes.begin(), hole.lanes.end(),
-      [](const Lane& a, const Lane& b) { return std::abs(a.offset_m) < std::abs(b.offset_m); });
-  if (middle != hole.lanes.end()) hole.width_m = middle->far_rim_m - middle->rim_m;
+  hole.width_m = width_of(hole, along, node_m);
   const Node before = nodes.nearest(hole.rim_point_m + (rim_m - kBeforeRim_m) * hole.forward);
   if (!nodes.contains(before)) return;
   hole.depth_m = nodes.height_m(before) - lowest_m;
