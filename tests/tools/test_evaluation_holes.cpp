@@ -29,6 +29,7 @@ TEST_CASE("an oblique ditch is as wide as it is along the path, not across a who
     scene.dig(30.0 + 0.1 * i, 31.9 + 0.1 * i, 0.1 * i - 0.01, 0.1 * i + 0.01, 1.0);
   REQUIRE(scene.facts().holes.size() == 1);
   CHECK(scene.facts().holes[0].width_m == Approx(2.0).margin(0.25));
+  CHECK_FALSE(scene.facts().holes[0].open);
   CHECK(scene.facts().holes[0].lanes[4].far_rim_m - scene.facts().holes[0].lanes[4].rim_m > 2.8);
 }
 

@@ -14,7 +14,7 @@ constexpr double kBeyondEnd_m = 6.0;  // of the path
 constexpr double kHalfWay_m = 1.0;    // of the width of a lane
 constexpr double kMiddle_m = 0.5;     // half of a lane's middle metre
 constexpr double kOutermostLane_m = 4.0;
-constexpr double kBeforeRim_m = 0.5;
+constexpr double kBesideRim_m = 0.5;
 
 struct Node {
   int x;
@@ -102,15 +102,25 @@ void add_lane(Hole& hole, const std::vector<Eigen::Vector2d>& along, double offs
   hole.lanes.push_back({offset_m, extent.from_m, std::min(extent.to_m, extent.from_m + kWidestHole_m)});
 }
 
-/// Along the middle line of the lane nearest to the path's: an oblique ditch is wider across a whole lane.
-double width_of(const Hole& hole, const std::vector<Eigen::Vector2d>& along, double node_m) {
-  const auto middle = std::min_element(
-      hole.lanes.begin(), hole.lanes.end(),
-      [](const Lane& a, const Lane& b) { return std::abs(a.offset_m) < std::abs(b.offset_m); });
-  if (middle == hole.lanes.end()) return 0.0;
-  const Extent narrow = extent_of(along, middle->offset_m, node_m, node_m);
-  const Extent extent = narrow.from_m < narrow.to_m ? narrow : Extent{middle->rim_m, middle->far_rim_m};
-  return std::min(extent.to_m - extent.from_m, kWidestHole_m);
+/// The lane nearest to the path's middle; there is one.
+const Lane& middle_lane(const Hole& hole) {
+  return *std::min_element(hole.lanes.begin(), hole.lanes.end(), [](const Lane& a, const Lane& b) {
+    return std::abs(a.offset_m) < std::abs(b.offset_m);
+  });
+}
+
+/// Width, and whether there is a far side, along the middle line of that lane: an oblique ditch is wider
+/// across a whole lane.
+void measure_width(Hole& hole, const Nodes& nodes, const std::vector<Eigen::Vector2d>& along, double before_m,
+                   double node_m) {
+  const Lane& lane = middle_lane(hole);
+  const Extent narrow = extent_of(along, lane.offset_m, node_m, node_m);
+  const Extent extent = narrow.from_m < narrow.to_m ? narrow : Extent{lane.rim_m, lane.far_rim_m};
+  hole.width_m = std::min(extent.to_m - extent.from_m, kWidestHole_m);
+  const Eigen::Vector2d left(-hole.forward.y(), hole.forward.x());
+  const Node beyond =
+      nodes.nearest(hole.rim_point_m + (extent.to_m + kBesideRim_m) * hole.forward + lane.offset_m * left);
+  if (nodes.contains(beyond) && nodes.height_m(beyond) < before_m - 0.5 * hole.depth_m) hole.open = true;
 }
 
 void measure(Hole& hole, const Nodes& nodes, const std::vector<Node>& members, double node_m) {
@@ -128,13 +138,10 @@ void measure(Hole& hole, const Nodes& nodes, const std::vector<Node>& members, d
   hole.rim_driven_m += rim_m;
   for (double offset_m = -kOutermostLane_m; offset_m <= kOutermostLane_m; offset_m += 1.0)
     add_lane(hole, along, offset_m, node_m);
-  hole.width_m = width_of(hole, along, node_m);
-  const Node before = nodes.nearest(hole.rim_point_m + (rim_m - kBeforeRim_m) * hole.forward);
-  if (!nodes.contains(before)) return;
+  const Node before = nodes.nearest(hole.rim_point_m + (rim_m - kBesideRim_m) * hole.forward);
+  if (hole.lanes.empty() || !nodes.contains(before)) return;
   hole.depth_m = nodes.height_m(before) - lowest_m;
-  const Node beyond = nodes.nearest(hole.rim_point_m + (rim_m + hole.width_m + kBeforeRim_m) * hole.forward);
-  if (nodes.contains(beyond) && nodes.height_m(beyond) < nodes.height_m(before) - 0.5 * hole.depth_m)
-    hole.open = true;
+  measure_width(hole, nodes, along, nodes.height_m(before), node_m);
 }
 
 }  // namespace
