@@ -19,6 +19,7 @@ constexpr double kKerbResolution = 0.05;
 constexpr double kHouses = 7.0;
 constexpr double kHouseDepth = 8.0;
 constexpr double kParked = 2.9;  // the middle of a car, from the middle of the road
+constexpr double kTaken = 0.45;  // share of the parking places
 constexpr double kLamps = 4.5;
 
 GroundPoint street_at(double y) {
@@ -41,7 +42,7 @@ void build_houses(Planter& planter, Random& random, double end_x, double side) {
 
 void park_cars(Planter& planter, Random& random, double end_x, double side) {
   for (double x = -20.0 + random.between(0.0, 4.0); x < end_x; x += random.between(5.4, 7.0))
-    if (random.between(0.0, 1.0) < 0.7)
+    if (random.between(0.0, 1.0) < kTaken)
       planter.add(make_car(planter.on_ground(x, side * (kParked + random.between(-0.1, 0.1)))));
 }
 
