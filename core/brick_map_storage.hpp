@@ -16,13 +16,14 @@ class BrickMapStorage {
     directory_.resize(shape.brick_slots);
     lookup_.resize(std::size_t{shape.brick_count} * kBrickCells);
     columns_.resize(shape.brick_count);
+    lowest_ray_m_.resize(shape.column_count);
     records_.resize(shape.record_count);
-    return {directory_.data(), lookup_.data(), columns_.data(), records_.data()};
+    return {directory_.data(), lookup_.data(), columns_.data(), lowest_ray_m_.data(), records_.data()};
   }
 
   [[nodiscard]] BrickMapView view(const Grid& grid, std::int64_t stamp_ns, const Pose& T_odom_base) const {
-    return {grid,           stamp_ns,        record_of(T_odom_base), shape_, directory_.data(),
-            lookup_.data(), columns_.data(), records_.data()};
+    return {grid,           stamp_ns,        record_of(T_odom_base), shape_,         directory_.data(),
+            lookup_.data(), columns_.data(), lowest_ray_m_.data(),   records_.data()};
   }
 
  private:
@@ -30,6 +31,7 @@ class BrickMapStorage {
   std::vector<std::int32_t> directory_;
   std::vector<std::int32_t> lookup_;
   std::vector<std::uint64_t> columns_;
+  std::vector<float> lowest_ray_m_;
   std::vector<VoxelRecord> records_;
 };
 

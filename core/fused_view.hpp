@@ -35,6 +35,7 @@ struct FusedView {
   const std::uint64_t* occupied;     ///< [column][word], bit z from the origin up: hits >= min_hits (R8).
   const std::uint64_t* free;         ///< [column][word]: observed and not occupied (R8).
   const std::int64_t* last_seen_ns;  ///< [column]: newest stamp that observed it, or kNeverSeen (R15).
+  const float* lowest_ray_m;         ///< [column_in_stacks]: lowest point of a ray (R5a), or +infinity.
 
   GVOM_HD std::int32_t torus(std::int32_t i, int axis) const {
     const std::int32_t n = axis == 2 ? n_z : n_xy;
@@ -45,6 +46,10 @@ struct FusedView {
   GVOM_HD std::size_t column(std::int32_t x, std::int32_t y) const {
     return static_cast<std::size_t>(torus(y, 1)) * static_cast<std::size_t>(n_xy) +
            static_cast<std::size_t>(torus(x, 0));
+  }
+  /// Index of a column in `lowest_ray_m`.
+  [[nodiscard]] GVOM_HD std::size_t stacked_column(std::int32_t x, std::int32_t y) const {
+    return column_in_stacks(torus(x, 0), torus(y, 1), n_xy / kBrickEdge);
   }
   /// Index of a voxel in `hits`, `passes` and `min_height_m`.
   GVOM_HD std::size_t cell(std::int32_t x, std::int32_t y, std::int32_t z) const {

@@ -67,9 +67,11 @@ GVOM_HD inline void step_if(bool goes, RayAxis& axis) {
 }
 
 /// Calls `visit(x, y, z)` for every voxel that the segment goes through, first to last, except the
-/// voxel of its end, until that says false. `from` and `to` are fixed coordinates.
-template <class Visit>
-GVOM_HD void walk_ray(const std::int64_t (&from)[3], const std::int64_t (&to)[3], Visit&& visit) {
+/// voxel of its end, until that says false; after each step `step(axis, x, y, z)` with the voxel that it led
+/// to. `from` and `to` are fixed coordinates.
+template <class Visit, class Step>
+GVOM_HD void walk_ray(const std::int64_t (&from)[3], const std::int64_t (&to)[3], Visit&& visit,
+                      Step&& step) {
   RayAxis x = ray_axis(from[0], to[0]), y = ray_axis(from[1], to[1]), z = ray_axis(from[2], to[2]);
   for (std::int64_t left = std::int64_t{x.crossings} + y.crossings + z.crossings; left > 0; --left) {
     if (!visit(x.voxel, y.voxel, z.voxel)) return;
@@ -78,7 +80,12 @@ GVOM_HD void walk_ray(const std::int64_t (&from)[3], const std::int64_t (&to)[3]
     step_if(x_first && z_last, x);
     step_if(!x_first && z_last, y);
     step_if(!z_last, z);
+    step(z_last ? (x_first ? 0 : 1) : 2, x.voxel, y.voxel, z.voxel);
   }
+}
+template <class Visit>
+GVOM_HD void walk_ray(const std::int64_t (&from)[3], const std::int64_t (&to)[3], Visit&& visit) {
+  walk_ray(from, to, visit, [](int, std::int32_t, std::int32_t, std::int32_t) {});
 }
 
 }  // namespace gvom

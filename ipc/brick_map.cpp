@@ -31,7 +31,8 @@ void zero_padding(std::byte* base, const BrickMap& map, const BrickMapLayout& la
   const auto zero = [base](std::size_t from, std::size_t to) { std::memset(base + from, 0, to - from); };
   zero(layout.directory + map.shape.brick_slots * sizeof(std::int32_t), layout.lookup);
   zero(layout.lookup + lookup_count(map.shape.brick_count) * sizeof(std::int32_t), layout.columns);
-  zero(layout.columns + map.shape.brick_count * sizeof(std::uint64_t), layout.records);
+  zero(layout.columns + map.shape.brick_count * sizeof(std::uint64_t), layout.lowest_ray);
+  zero(layout.lowest_ray + map.shape.column_count * sizeof(float), layout.records);
 }
 
 }  // namespace
@@ -45,12 +46,15 @@ Span<std::int32_t> BrickMapWriter::lookup() const {
 Span<std::uint64_t> BrickMapWriter::columns() const {
   return array_at<std::uint64_t>(loan_.data(), layout_.columns, header().shape.brick_count);
 }
+Span<float> BrickMapWriter::lowest_ray_m() const {
+  return array_at<float>(loan_.data(), layout_.lowest_ray, header().shape.column_count);
+}
 Span<VoxelRecord> BrickMapWriter::records() const {
   return array_at<VoxelRecord>(loan_.data(), layout_.records, header().shape.record_count);
 }
 
 BrickMapArrays BrickMapWriter::arrays() const {
-  return {directory().data(), lookup().data(), columns().data(), records().data()};
+  return {directory().data(), lookup().data(), columns().data(), lowest_ray_m().data(), records().data()};
 }
 
 BrickMapPublisher::BrickMapPublisher(OutPort port, std::string lidar, std::size_t capacity_bytes)
@@ -106,15 +110,20 @@ Span<const std::int32_t> BrickMapSample::lookup() const {
 Span<const std::uint64_t> BrickMapSample::columns() const {
   return array_at<std::uint64_t>(chunk_.data(), layout_.columns, header().shape.brick_count);
 }
+Span<const float> BrickMapSample::lowest_ray_m() const {
+  return array_at<float>(chunk_.data(), layout_.lowest_ray, header().shape.column_count);
+}
 Span<const VoxelRecord> BrickMapSample::records() const {
   return array_at<VoxelRecord>(chunk_.data(), layout_.records, header().shape.record_count);
 }
 
 BrickMapView BrickMapSample::view() const {
   const BrickMap& map = header();
-  return {map.grid,         map.header.stamp_ns, map.T_odom_base,
-          map.shape,        directory().data(),  lookup().data(),
-          columns().data(), records().data(),    layout_.bytes - layout_.directory};
+  return {map.grid,           map.header.stamp_ns,
+          map.T_odom_base,    map.shape,
+          directory().data(), lookup().data(),
+          columns().data(),   lowest_ray_m().data(),
+          records().data(),   layout_.bytes - layout_.directory};
 }
 
 Expected<BrickMapSubscriber> BrickMapSubscriber::buffer_map(Runtime& runtime, const std::string& lidar) {

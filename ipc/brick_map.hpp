@@ -21,7 +21,8 @@ class BrickMapWriter {
   [[nodiscard]] Span<std::int32_t> lookup() const;     ///< brick_count * 512
   [[nodiscard]] Span<std::uint64_t> columns() const;   ///< brick_count
   [[nodiscard]] Span<VoxelRecord> records() const;     ///< record_count
-  [[nodiscard]] BrickMapArrays arrays() const;         ///< All four.
+  [[nodiscard]] Span<float> lowest_ray_m() const;      ///< column_count
+  [[nodiscard]] BrickMapArrays arrays() const;         ///< All five.
 
  private:
   friend class BrickMapPublisher;
@@ -56,7 +57,7 @@ class BrickMapPublisher {
 
 /// What is wrong with a map's arrays.
 struct MapFault {
-  enum class Part { directory, lookup, columns, records };
+  enum class Part { directory, lookup, columns, lowest_ray, records };
   Part part;
   std::string why;  ///< In words.
 };
@@ -71,6 +72,7 @@ class BrickMapSample {
   [[nodiscard]] Span<const std::int32_t> directory() const;
   [[nodiscard]] Span<const std::int32_t> lookup() const;
   [[nodiscard]] Span<const std::uint64_t> columns() const;
+  [[nodiscard]] Span<const float> lowest_ray_m() const;
   [[nodiscard]] Span<const VoxelRecord> records() const;
   /// The map with its arrays, to be read where it lies: while this sample lives.
   [[nodiscard]] BrickMapView view() const;

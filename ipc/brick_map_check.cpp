@@ -76,8 +76,18 @@ Checked check_bricks(const BrickMapSample& map) {
                 std::to_string(hits) + " voxels lead to " + std::to_string(records) + " records");
 }
 
+constexpr float kHighest_m = 1.1e7F;  // the farthest position, and a lidar's reach from there
+
+Checked check_lowest_rays(Span<const float> lowest_m) {
+  for (const float lowest : lowest_m) {
+    if (std::abs(lowest) <= kHighest_m || lowest == kNoRay_m) continue;
+    return broken(Part::lowest_ray,
+                  "a ray's lowest point in a column is at " + std::to_string(lowest) + " m");
+  }
+  return {};
+}
+
 Checked check_records(Span<const VoxelRecord> records) {
-  constexpr float kHighest_m = 1.1e7F;  // the farthest position, and a lidar's reach from there
   for (const VoxelRecord& record : records) {
     if (record.hits == 0 || !(std::abs(record.min_height_m) <= kHighest_m)) {
       return broken(Part::records, "a record has " + std::to_string(record.hits) + " hits, the lowest at " +
@@ -92,6 +102,7 @@ Checked check_records(Span<const VoxelRecord> records) {
 tl::expected<void, MapFault> BrickMapSample::validate_deep() const {
   return check_directory(directory(), header().shape.brick_count)
       .and_then([this] { return check_bricks(*this); })
+      .and_then([this] { return check_lowest_rays(lowest_ray_m()); })
       .and_then([this] { return check_records(records()); });
 }
 

@@ -61,7 +61,7 @@ struct Ground {
 /// `brick_map_layout` has them. Topic "buffer_map" (one sweep of one lidar) and "voxel_map" (the fused map:
 /// counts summed over the window).
 struct BrickMap {
-  static constexpr std::uint16_t kVersion = 3;
+  static constexpr std::uint16_t kVersion = 4;
   enum Flags : std::uint32_t {
     kLossless = 1,  // of a replay that waits for its readers: fusion makes layers of each map
   };
@@ -70,9 +70,8 @@ struct BrickMap {
   Grid grid;
   PoseRecord T_odom_base;  // at the stamp
   BrickMapShape shape;
-  float columns_seen_fraction;  // of the sweep's columns, 0 .. 1; 1: it is complete
-  std::uint32_t flags;          // Flags
-  std::uint32_t reserved;
+  float columns_seen_fraction;       // of the sweep's columns, 0 .. 1; 1: it is complete
+  std::uint32_t flags;               // Flags
   Ground ground;                     // of the sweeps before this one; verdict none in a voxel map
   std::uint64_t returns;             // that became hits or rays
   std::uint64_t dropped_not_finite;  // returns dropped by the filter (R2), this sweep

@@ -104,10 +104,15 @@ std::uint64_t voxels(const PoolSpec& spec) {
 
 std::size_t capacity(const PoolSpec& spec, std::uint64_t most_records) {
   const std::uint64_t records = std::min(voxels(spec), most_records);
-  return brick_map_bytes({brick_slots(spec), brick_slots(spec), static_cast<std::uint32_t>(records)});
+  const std::uint32_t slots = brick_slots(spec);
+  return brick_map_bytes({slots, slots, static_cast<std::uint32_t>(records), columns(spec)});
 }
 
 }  // namespace
+
+std::uint32_t columns(const PoolSpec& spec) {
+  return static_cast<std::uint32_t>(spec.size_xy) * static_cast<std::uint32_t>(spec.size_xy);
+}
 
 std::uint32_t brick_slots(const PoolSpec& spec) {
   const int bricks_xy = spec.size_xy / kBrickEdge;

@@ -34,6 +34,8 @@ struct PoolPlan {
 
 /// The bricks of the grid: brick_slots of its maps.
 std::uint32_t brick_slots(const PoolSpec& spec);
+/// The columns of the grid: column_count of its maps.
+std::uint32_t columns(const PoolSpec& spec);
 
 /// Bytes of the largest map that can be: every brick touched, every return (or voxel) a record of its own.
 /// These are the capacities that BrickMapPublisher is opened with.

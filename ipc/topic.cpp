@@ -157,6 +157,10 @@ Complaint check_brick_map(const std::byte* message, std::size_t bytes) {
     return "claims " + std::to_string(shape.brick_slots) + " brick slots, its grid has " +
            std::to_string(map.grid.brick_slots());
   }
+  if (shape.column_count != map.grid.columns()) {
+    return "claims " + std::to_string(shape.column_count) + " columns, its grid has " +
+           std::to_string(map.grid.columns());
+  }
   if (auto complaint = too_many("bricks", shape.brick_count, shape.brick_slots)) return complaint;
   return first_of(too_many("records", shape.record_count, shape.brick_count * std::uint64_t{kBrickCells}),
                   wrong_size(bytes, brick_map_bytes(shape)));

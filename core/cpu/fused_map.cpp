@@ -33,18 +33,25 @@ FusedMap::FusedMap(const MapConfig& map, const WindowConfig& window, int min_hit
   occupied_.resize(columns * static_cast<std::size_t>(words_));
   free_.resize(columns * static_cast<std::size_t>(words_));
   last_seen_ns_.resize(columns, kNeverSeen);
+  lowest_ray_m_.resize(columns, kNoRay_m);
   stale_.reserve(kBrickCells);
 }
 
 FusedView FusedMap::view() const {
-  return {
-      grid_.size[0],  grid_.size[2],        words_,           toroidal_origin(grid_), hits_.data(),
-      passes_.data(), min_height_m_.data(), occupied_.data(), free_.data(),           last_seen_ns_.data()};
+  return {grid_.size[0],          grid_.size[2],       words_,
+          toroidal_origin(grid_), hits_.data(),        passes_.data(),
+          min_height_m_.data(),   occupied_.data(),    free_.data(),
+          last_seen_ns_.data(),   lowest_ray_m_.data()};
 }
 
 std::uint32_t FusedMap::slot_of(const Int3& b) const {
   const Int3 n = grid_.bricks();
   return brick_slot(wrap(b[0], n[0]), wrap(b[1], n[1]), wrap(b[2], n[2]), n[0], n[1]);
+}
+
+std::size_t FusedMap::stack_of(std::int32_t bx, std::int32_t by) const {
+  const Int3 n = grid_.bricks();
+  return brick_slot(wrap(bx, n[0]), wrap(by, n[1]), 0, n[0], n[1]) * std::size_t{kBrickColumns};
 }
 
 std::size_t FusedMap::column_of(std::int32_t bx, std::int32_t by, int column) const {
@@ -85,6 +92,7 @@ void FusedMap::update_brick_column(std::int32_t bx, std::int32_t by, const Chang
     if (changed) rebuild_masks(brick, slot);
   }
   update_last_seen(bx, by, change, entered);
+  update_lowest_ray(bx, by, change);
 }
 
 bool FusedMap::update_brick(const Int3& brick, std::uint32_t slot, const Change& change) {
@@ -209,6 +217,7 @@ void FusedMap::reset() {
   std::fill(occupied_.begin(), occupied_.end(), 0);
   std::fill(free_.begin(), free_.end(), 0);
   std::fill(last_seen_ns_.begin(), last_seen_ns_.end(), kNeverSeen);
+  std::fill(lowest_ray_m_.begin(), lowest_ray_m_.end(), kNoRay_m);
 }
 
 }  // namespace gvom::cpu

@@ -9,6 +9,7 @@
 #include "core/config.hpp"
 #include "core/format/brick_map.hpp"
 #include "core/fused_view.hpp"
+#include "core/lowest_ray.hpp"
 #include "core/window.hpp"
 
 namespace gvom::cpu {
@@ -58,10 +59,14 @@ class FusedMap {
   void rebuild_masks(const Int3& brick, std::uint32_t slot);
   void update_last_seen(std::int32_t bx, std::int32_t by, const Change& change, bool all);
   void refresh_last_seen(std::int32_t bx, std::int32_t by, std::uint64_t columns, std::int64_t newest_ns);
+  void update_lowest_ray(std::int32_t bx, std::int32_t by, const Change& change);
+  void refresh_lowest_ray(std::int32_t bx, std::int32_t by, std::uint64_t columns, float* lowest_m);
   [[nodiscard]] std::uint64_t observed_columns(const BrickMapView& map, std::int32_t bx,
                                                std::int32_t by) const;
   FusedCell cell_at(std::size_t i) { return {hits_[i], passes_[i], min_height_m_[i]}; }
   [[nodiscard]] std::uint32_t slot_of(const Int3& world_brick) const;
+  /// Where the columns of a stack begin in `lowest_ray_m_`.
+  [[nodiscard]] std::size_t stack_of(std::int32_t bx, std::int32_t by) const;
   [[nodiscard]] std::size_t column_of(std::int32_t bx, std::int32_t by, int column) const;
 
   Window window_;
@@ -76,6 +81,7 @@ class FusedMap {
   std::vector<std::uint64_t> occupied_;
   std::vector<std::uint64_t> free_;
   std::vector<std::int64_t> last_seen_ns_;
+  std::vector<float> lowest_ray_m_;  // column_in_stacks
   std::vector<StaleMinimum> stale_;
 };
 

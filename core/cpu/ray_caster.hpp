@@ -1,10 +1,12 @@
-// Counts the passes of rays (R5) in a dense grid of bricks, several voxels at a time.
+// Counts the passes of rays (R5) in a dense grid of bricks, several voxels at a time, and how low they have
+// been in each column (R5a).
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
 #include "core/grid.hpp"
+#include "core/lowest_ray.hpp"
 
 namespace gvom::cpu {
 
@@ -38,11 +40,25 @@ class PassCounters {
     return static_cast<std::uint32_t>(counters_.size() - kBrickCells);
   }
 
+  /// The same for a column of `lowest()`.
+  [[nodiscard]] std::uint32_t column(std::int32_t x, std::int32_t y) const {
+    return inside(x, y, 0) ? column_in_stacks(x, y, bricks_[0]) : outside_column();
+  }
+  [[nodiscard]] std::uint32_t outside_column() const {
+    return static_cast<std::uint32_t>(lowest_.size() - 1);
+  }
+
   std::uint32_t* counters() { return counters_.data(); }
   std::uint8_t* touched() { return touched_.data(); }
+  /// Per column (`column_in_stacks`): the lowest height of a ray there (core/lowest_ray.hpp), or kNoRay.
+  std::int32_t* lowest() { return lowest_.data(); }
 
  private:
   void cast_exactly(const std::int64_t (&from)[3], const std::int64_t (&to)[3]);
+  void count(const std::vector<std::uint32_t>& counters, std::size_t crossings);
+  void lower_to(std::uint32_t column, std::int32_t height) {
+    if (height < lowest_[column]) lowest_[column] = height;
+  }
   [[nodiscard]] bool inside(std::int32_t x, std::int32_t y, std::int32_t z) const {
     return static_cast<std::uint32_t>(x) < static_cast<std::uint32_t>(size_[0]) &&
            static_cast<std::uint32_t>(y) < static_cast<std::uint32_t>(size_[1]) &&
@@ -53,7 +69,11 @@ class PassCounters {
   Int3 bricks_;
   std::vector<std::uint32_t> counters_;
   std::vector<std::uint8_t> touched_;
-  std::vector<std::uint32_t> crossed_;  // counters behind the face crossings of a batch
+  std::vector<std::int32_t> lowest_;
+  std::vector<std::uint32_t> crossed_xy_;      // counters behind the crossings of a batch: of x and y faces,
+  std::vector<std::uint32_t> crossed_z_;       // of z faces;
+  std::vector<std::uint32_t> crossed_column_;  // columns that those of x and y speak of, and the heights
+  std::vector<std::int32_t> crossed_height_;
 };
 
 }  // namespace gvom::cpu

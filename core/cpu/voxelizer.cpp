@@ -88,7 +88,9 @@ DeviceExpected<BrickMapShape> Voxelizer::count(const Sweep& sweep, const std::ve
                                                const Grid& grid) {
   forget();
   filter_counts_ = {};
-  if (sweep.returns.empty()) return BrickMapShape{brick_slots_, 0, 0};
+  grid_ = grid;
+  BrickMapShape shape{brick_slots_, 0, 0, grid.columns()};
+  if (sweep.returns.empty()) return shape;
   const Return* const end = sweep.returns.data() + sweep.returns.size();
   for (const Return* r = sweep.returns.data(); r != end;) {
     const std::uint32_t time = r->time_index;
@@ -107,7 +109,7 @@ DeviceExpected<BrickMapShape> Voxelizer::count(const Sweep& sweep, const std::ve
       for (int i = 0; i < ends_.count; ++i) add_hit(ends_.counter[i], batch_.height_m[i]);
     }
   }
-  BrickMapShape shape{brick_slots_, 0, static_cast<std::uint32_t>(hits_.size())};
+  shape.record_count = static_cast<std::uint32_t>(hits_.size());
   find_touched_bricks(shape);
   return shape;
 }
@@ -146,9 +148,19 @@ DeviceExpected<void> Voxelizer::write(const BrickMapArrays& out) {
     out.columns[brick] = columns;
     std::memset(counters, 0, kBrickCells * sizeof *counters);
   }
+  write_lowest_rays(out);
   bricks_.clear();
   hits_.clear();
   return {};
+}
+
+GVOM_CLONES void Voxelizer::write_lowest_rays(const BrickMapArrays& out) {
+  std::int32_t* lowest = passes_.lowest();
+  GVOM_INDEPENDENT
+  for (std::uint32_t i = 0; i < grid_.columns(); ++i) {
+    out.lowest_ray_m[i] = height_of_ray_m(lowest[i], grid_.origin[2], grid_.resolution_m[2]);
+    lowest[i] = kNoRay;
+  }
 }
 
 std::uint32_t Voxelizer::write_hits(const BrickMapArrays& out, std::uint32_t slot, std::int32_t* lookup,
@@ -167,6 +179,7 @@ std::uint32_t Voxelizer::write_hits(const BrickMapArrays& out, std::uint32_t slo
 void Voxelizer::forget() {
   for (const std::uint32_t slot : bricks_)
     std::memset(passes_.counters() + std::size_t{slot} * kBrickCells, 0, kBrickCells * sizeof(std::uint32_t));
+  if (!bricks_.empty()) std::fill_n(passes_.lowest(), grid_.columns(), kNoRay);
   bricks_.clear();
   hits_.clear();
 }

@@ -42,11 +42,13 @@ class Voxelizer : public VoxelizerBackend {
   void find_touched_bricks(BrickMapShape& shape);
   std::uint32_t write_hits(const BrickMapArrays& out, std::uint32_t slot, std::int32_t* lookup,
                            std::uint32_t record);
+  void write_lowest_rays(const BrickMapArrays& out);
   void forget();
 
   Eigen::Isometry3d T_base_sensor_;
   ReturnFilter filter_;
   std::uint32_t brick_slots_;
+  Grid grid_;  // of the sweep
   PassCounters passes_;
   ReturnBatch batch_;
   RayEnds ends_;

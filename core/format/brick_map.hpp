@@ -29,11 +29,15 @@ GVOM_HD inline std::uint32_t passes_of(std::int32_t lookup) {
   return ~static_cast<std::uint32_t>(lookup);
 }
 
+/// The lowest point of a ray (R5a) in a column that no ray has left.
+inline constexpr float kNoRay_m = std::numeric_limits<float>::infinity();
+
 /// How many elements a map's arrays have.
 struct BrickMapShape {
   std::uint32_t brick_slots = 0;   ///< Bricks of the whole grid.
   std::uint32_t brick_count = 0;   ///< Bricks with an observed voxel.
   std::uint32_t record_count = 0;  ///< Voxels with hits.
+  std::uint32_t column_count = 0;  ///< Columns of the whole grid.
 };
 
 /// The arrays of a map to be written.
@@ -41,7 +45,8 @@ struct BrickMapArrays {
   std::int32_t* directory;  ///< [brick_slots], slot = (bz * ny + by) * nx + bx: brick or -1.
   std::int32_t* lookup;     ///< [brick_count * 512], cell = (x * 8 + y) * 8 + z: record, or -1 - passes.
   std::uint64_t* columns;   ///< [brick_count], bit x * 8 + y: the brick's column has an observed voxel.
-  VoxelRecord* records;     ///< [record_count], in the order of bricks and cells.
+  float* lowest_ray_m;   ///< [column_count], column_in_stacks: the lowest point of a ray (R5a), or +infinity.
+  VoxelRecord* records;  ///< [record_count], in the order of bricks and cells.
 };
 
 /// Where the arrays lie in one piece of memory, bytes from its start; each is aligned to 64.
@@ -49,6 +54,7 @@ struct BrickMapLayout {
   std::size_t directory;
   std::size_t lookup;
   std::size_t columns;
+  std::size_t lowest_ray;
   std::size_t records;
   std::size_t bytes;  ///< Of the whole piece.
 };
@@ -65,7 +71,8 @@ constexpr BrickMapLayout brick_map_layout(std::size_t header_bytes, const BrickM
   layout.directory = align_array(header_bytes);
   layout.lookup = align_array(layout.directory + shape.brick_slots * sizeof(std::int32_t));
   layout.columns = align_array(layout.lookup + shape.brick_count * kBrickCells * sizeof(std::int32_t));
-  layout.records = align_array(layout.columns + shape.brick_count * sizeof(std::uint64_t));
+  layout.lowest_ray = align_array(layout.columns + shape.brick_count * sizeof(std::uint64_t));
+  layout.records = align_array(layout.lowest_ray + shape.column_count * sizeof(float));
   layout.bytes = layout.records + shape.record_count * sizeof(VoxelRecord);
   return layout;
 }
@@ -79,8 +86,9 @@ struct BrickMapView {
   const std::int32_t* directory = nullptr;
   const std::int32_t* lookup = nullptr;
   const std::uint64_t* columns = nullptr;
+  const float* lowest_ray_m = nullptr;
   const VoxelRecord* records = nullptr;
-  /// Where the four arrays lie in one piece of memory, in this order, its size is here; else 0. A device
+  /// Where the five arrays lie in one piece of memory, in this order, its size is here; else 0. A device
   /// then fetches them in one copy.
   std::size_t bytes_in_one = 0;
 

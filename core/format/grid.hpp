@@ -41,6 +41,11 @@ GVOM_HD inline std::uint32_t brick_slot(std::int32_t bx, std::int32_t by, std::i
   return static_cast<std::uint32_t>((bz * ny + by) * nx + bx);
 }
 
+/// Index of a column in arrays of a grid's columns: those of a stack of bricks side by side.
+GVOM_HD inline std::uint32_t column_in_stacks(std::int32_t x, std::int32_t y, std::int32_t bricks_x) {
+  return static_cast<std::uint32_t>((((y >> 3) * bricks_x + (x >> 3)) << 6) | ((x & 7) << 3) | (y & 7));
+}
+
 /// A map holds the world voxels `v` with `0 <= v - origin < size`.
 struct Grid {
   Int3 origin{};  ///< World voxels, multiples of 8.
@@ -54,6 +59,9 @@ struct Grid {
     const Int3 b = bricks();
     return static_cast<std::uint32_t>(b[0]) * b[1] * b[2];
   }
+  [[nodiscard]] GVOM_HD std::uint32_t columns() const {
+    return static_cast<std::uint32_t>(size[0]) * static_cast<std::uint32_t>(size[1]);
+  }
   /// The slot of a brick at world brick coordinates (voxels / 8), or -1 where the grid does not reach.
   [[nodiscard]] GVOM_HD std::int32_t slot_of_brick(const Int3& world_brick) const {
     const Int3 n = bricks();
@@ -63,6 +71,10 @@ struct Grid {
       if (b[a] < 0 || b[a] >= n[a]) return -1;
     }
     return static_cast<std::int32_t>(brick_slot(b[0], b[1], b[2], n[0], n[1]));
+  }
+  /// The stack of bricks, a column of them, at world brick coordinates, or -1 where the grid does not reach.
+  [[nodiscard]] GVOM_HD std::int32_t stack_of_brick(std::int32_t bx, std::int32_t by) const {
+    return slot_of_brick({bx, by, origin[2] / kBrickEdge});
   }
   /// The middle of a world voxel, metres in odom.
   [[nodiscard]] std::array<double, 3> center_m(const Int3& world) const {

@@ -10,10 +10,10 @@ namespace gvom::bench {
 
 namespace {
 
-// Directory, lookup values, observed columns and records.
+// Directory, lookup values, observed columns, lowest rays and records.
 double bytes_of(const BrickMapShape& shape) {
   return shape.brick_slots * 4.0 + shape.brick_count * (kBrickCells * 4.0 + 8.0) +
-         shape.record_count * double{sizeof(VoxelRecord)};
+         shape.column_count * double{sizeof(float)} + shape.record_count * double{sizeof(VoxelRecord)};
 }
 
 Int3 brick_of_slot(const Grid& grid, std::int32_t slot) {

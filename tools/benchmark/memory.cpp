@@ -19,6 +19,7 @@ BrickMapArrays map_arrays(std::byte* begin, const BrickMapShape& shape) {
   const BrickMapLayout layout = brick_map_layout(0, shape);
   return {reinterpret_cast<std::int32_t*>(begin), reinterpret_cast<std::int32_t*>(begin + layout.lookup),
           reinterpret_cast<std::uint64_t*>(begin + layout.columns),
+          reinterpret_cast<float*>(begin + layout.lowest_ray),
           reinterpret_cast<VoxelRecord*>(begin + layout.records)};
 }
 
@@ -32,6 +33,7 @@ BrickMapView map_in_one(const BrickMapView& what, const BrickMapArrays& arrays) 
   map.directory = arrays.directory;
   map.lookup = arrays.lookup;
   map.columns = arrays.columns;
+  map.lowest_ray_m = arrays.lowest_ray_m;
   map.records = arrays.records;
   map.bytes_in_one = map_bytes(what.shape);
   return map;

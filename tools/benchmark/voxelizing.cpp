@@ -18,8 +18,9 @@ OwnedMap copy_of(const BrickMapView& map) {
 DeviceExpected<VoxelizingTimes> measure_voxelizing(Backend which, const MapConfig& config,
                                                    const Recording& recording, std::size_t runs,
                                                    Kernels kernels) {
-  const std::uint32_t slots = grid_around(config, Eigen::Vector3d::Zero()).brick_slots();
-  Memory out(map_bytes({slots, slots, static_cast<std::uint32_t>(kMostReturns)}));
+  const Grid shape_of_grid = grid_around(config, Eigen::Vector3d::Zero());
+  const std::uint32_t slots = shape_of_grid.brick_slots();
+  Memory out(map_bytes({slots, slots, static_cast<std::uint32_t>(kMostReturns), shape_of_grid.columns()}));
   auto opened = open_voxelizer(
       which, {config, recording.lidar, {}, kMostReturns, out.whole(), kernels == Kernels::timed});
   if (!opened) return tl::make_unexpected(opened.error());

@@ -1,9 +1,19 @@
-// When each column was last observed (R15), and the fused voxels as a brick map (R6).
+// When each column was last observed (R15), and how low rays have been in it (R5a).
 #include <algorithm>
 
 #include "core/cpu/fused_map.hpp"
 
 namespace gvom::cpu {
+
+namespace {
+
+// Of the 64 columns of a stack of bricks, or nullptr where the map does not reach.
+const float* lowest_rays(const BrickMapView& map, std::int32_t bx, std::int32_t by) {
+  const std::int32_t stack = map.grid.stack_of_brick(bx, by);
+  return stack < 0 ? nullptr : map.lowest_ray_m + std::ptrdiff_t{stack} * kBrickColumns;
+}
+
+}  // namespace
 
 std::uint64_t FusedMap::observed_columns(const BrickMapView& map, std::int32_t bx, std::int32_t by) const {
   std::uint64_t columns = 0;
@@ -46,39 +56,30 @@ void FusedMap::refresh_last_seen(std::int32_t bx, std::int32_t by, std::uint64_t
     last_seen_ns_[column_of(bx, by, __builtin_ctzll(columns))] = kNeverSeen;
 }
 
-BrickMapShape FusedMap::shape() const {
-  BrickMapShape shape{grid_.brick_slots(), 0, 0};
-  for (std::uint32_t slot = 0; slot < shape.brick_slots; ++slot) {
-    shape.brick_count += live_[slot];
-    shape.record_count += hit_cells_[slot];
+void FusedMap::update_lowest_ray(std::int32_t bx, std::int32_t by, const Change& change) {
+  float* const lowest_m = lowest_ray_m_.data() + stack_of(bx, by);
+  if (change.before.size[0] == 0 || change.before.stack_of_brick(bx, by) < 0)
+    return refresh_lowest_ray(bx, by, ~std::uint64_t{0}, lowest_m);
+  const float* const added_m = lowest_rays(change.added->view, bx, by);
+  for (int c = 0; added_m != nullptr && c < kBrickColumns; ++c) lowest_m[c] = lower(lowest_m[c], added_m[c]);
+  std::uint64_t stale = 0;
+  for (const WindowMap& left : *change.left) {
+    const float* const left_m = lowest_rays(left.view, bx, by);
+    for (int c = 0; left_m != nullptr && c < kBrickColumns; ++c)
+      stale |= std::uint64_t{left_m[c] == lowest_m[c] && left_m[c] < kNoRay_m} << c;
   }
-  return shape;
+  if (stale != 0) refresh_lowest_ray(bx, by, stale, lowest_m);
 }
 
-void FusedMap::write(const BrickMapArrays& out) const {
-  std::fill_n(out.directory, grid_.brick_slots(), -1);
-  const Int3 n = grid_.bricks();
-  std::int32_t brick = 0;
-  std::int32_t record = 0;
-  std::uint32_t slot = 0;
-  for (std::int32_t bz = 0; bz < n[2]; ++bz)
-    for (std::int32_t by = 0; by < n[1]; ++by)
-      for (std::int32_t bx = 0; bx < n[0]; ++bx, ++slot) {
-        const std::uint32_t place =
-            slot_of({grid_.origin[0] / kBrickEdge + bx, grid_.origin[1] / kBrickEdge + by,
-                     grid_.origin[2] / kBrickEdge + bz});
-        if (!live_[place]) continue;
-        std::uint64_t columns = 0;
-        for (std::size_t cell = 0; cell < kBrickCells; ++cell) {
-          const std::size_t i = std::size_t{place} * kBrickCells + cell;
-          std::int32_t& lookup = out.lookup[static_cast<std::size_t>(brick) * kBrickCells + cell];
-          if (hits_[i] + passes_[i] != 0) columns |= std::uint64_t{1} << (cell >> 3);
-          lookup = hits_[i] > 0 ? record : free_lookup(passes_[i]);
-          if (hits_[i] > 0) out.records[record++] = {hits_[i], passes_[i], min_height_m_[i]};
-        }
-        out.directory[slot] = brick;
-        out.columns[brick++] = columns;
-      }
+void FusedMap::refresh_lowest_ray(std::int32_t bx, std::int32_t by, std::uint64_t columns, float* lowest_m) {
+  for (std::uint64_t rest = columns; rest != 0; rest &= rest - 1) lowest_m[__builtin_ctzll(rest)] = kNoRay_m;
+  for (const WindowMap& map : window_.maps()) {
+    const float* const map_m = lowest_rays(map.view, bx, by);
+    for (std::uint64_t rest = map_m != nullptr ? columns : 0; rest != 0; rest &= rest - 1) {
+      const int c = __builtin_ctzll(rest);
+      lowest_m[c] = lower(lowest_m[c], map_m[c]);
+    }
+  }
 }
 
 }  // namespace gvom::cpu
