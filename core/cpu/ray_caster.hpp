@@ -55,7 +55,6 @@ class PassCounters {
 
  private:
   void cast_exactly(const std::int64_t (&from)[3], const std::int64_t (&to)[3]);
-  void count(const std::vector<std::uint32_t>& counters, std::size_t crossings);
   void lower_to(std::uint32_t column, std::int32_t height) {
     if (height < lowest_[column]) lowest_[column] = height;
   }
@@ -70,9 +69,10 @@ class PassCounters {
   std::vector<std::uint32_t> counters_;
   std::vector<std::uint8_t> touched_;
   std::vector<std::int32_t> lowest_;
-  std::vector<std::uint32_t> crossed_xy_;      // counters behind the crossings of a batch: of x and y faces,
-  std::vector<std::uint32_t> crossed_z_;       // of z faces;
-  std::vector<std::uint32_t> crossed_column_;  // columns that those of x and y speak of, and the heights
+  // Of a batch: counters behind its crossings, columns that some of them leave, and the heights.
+  std::vector<std::uint32_t> crossed_;
+  std::vector<std::uint32_t> crossed_passes_;
+  std::vector<std::uint32_t> crossed_column_;
   std::vector<std::int32_t> crossed_height_;
 };
 
