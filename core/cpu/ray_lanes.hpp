@@ -95,7 +95,7 @@ class AxisCrossings {
     height_ = rounded<kLanes>((from_c_ + slope_c_ * to_face) * height_one) + first * step_height_;
     own_ = rays.voxel[kAxis] + step * first;
     step_ = step;
-    enters_ = first > 0;
+    enters_ = (own_ | (grid.size[kAxis] - 1 - own_)) >> 31;
     rest_ = rays.count[kAxis] - 1;
   }
 
