@@ -37,6 +37,9 @@ void FusionCounts::count_drop(ipc::MapFault::Part part) {
     case ipc::MapFault::Part::columns:
       ++bad_columns;
       break;
+    case ipc::MapFault::Part::lowest_ray:
+      ++bad_lowest_rays;
+      break;
     case ipc::MapFault::Part::records:
       ++bad_records;
       break;

@@ -25,6 +25,7 @@ struct FusionCounts {
   std::uint64_t bad_directories = 0;
   std::uint64_t bad_lookups = 0;
   std::uint64_t bad_columns = 0;
+  std::uint64_t bad_lowest_rays = 0;
   std::uint64_t bad_records = 0;
   std::uint64_t bad_epochs = 0;
   std::uint64_t bad_times = 0;
@@ -64,6 +65,7 @@ inline constexpr CounterRow kFusionCounters[] = {
     {"drop_map_bad_directory", &FusionCounts::bad_directories},  // readable, but it leads nowhere
     {"drop_map_bad_lookup", &FusionCounts::bad_lookups},
     {"drop_map_bad_columns", &FusionCounts::bad_columns},
+    {"drop_map_bad_lowest_rays", &FusionCounts::bad_lowest_rays},
     {"drop_map_bad_records", &FusionCounts::bad_records},
     {"drop_map_bad_epoch", &FusionCounts::bad_epochs},  // announced by no odometry
     {"drop_map_bad_time", &FusionCounts::bad_times},    // received, measured or jumped in the future

@@ -36,20 +36,23 @@ std::string words(const oracle::Voxel& voxel) {
 // voxel, records in order of bricks and cells.
 class BrickMapOf {
  public:
-  explicit BrickMapOf(const oracle::VoxelBox& voxels) : voxels_(voxels) {
+  BrickMapOf(const oracle::VoxelBox& voxels, const oracle::ColumnHeights& lowest_ray) : voxels_(voxels) {
     const Int3 n = voxels.grid().bricks();
     for (int bz = 0; bz < n[2]; ++bz)
       for (int by = 0; by < n[1]; ++by)
         for (int bx = 0; bx < n[0]; ++bx) add_brick({bx * kBrickEdge, by * kBrickEdge, bz * kBrickEdge});
+    for (int by = 0; by < n[1]; ++by)
+      for (int bx = 0; bx < n[0]; ++bx) add_stack(lowest_ray, bx * kBrickEdge, by * kBrickEdge);
   }
 
   [[nodiscard]] BrickMapView view() const {
     BrickMapView map;
     map.shape = {std::uint32_t(directory_.size()), std::uint32_t(columns_.size()),
-                 std::uint32_t(records_.size())};
+                 std::uint32_t(records_.size()), std::uint32_t(lowest_ray_m_.size())};
     map.directory = directory_.data();
     map.lookup = lookup_.data();
     map.columns = columns_.data();
+    map.lowest_ray_m = lowest_ray_m_.data();
     map.records = records_.data();
     return map;
   }
@@ -71,6 +74,12 @@ class BrickMapOf {
     if (voxel.hits > 0) records_.push_back({voxel.hits, voxel.passes, voxel.min_height_m});
   }
 
+  // Columns lie as a brick's do: y fastest.
+  void add_stack(oracle::ColumnHeights lowest_ray, int x, int y) {
+    for (int column = 0; column < kBrickColumns; ++column)
+      lowest_ray_m_.push_back(*lowest_ray.at(x + column / kBrickEdge, y + column % kBrickEdge));
+  }
+
   [[nodiscard]] const oracle::Voxel& at(const Int3& corner, int cell) const {
     return voxels_.local(corner[0] + cell / 64, corner[1] + cell / 8 % 8, corner[2] + cell % 8);
   }
@@ -79,6 +88,7 @@ class BrickMapOf {
   std::vector<std::int32_t> directory_;
   std::vector<std::int32_t> lookup_;
   std::vector<std::uint64_t> columns_;
+  std::vector<float> lowest_ray_m_;
   std::vector<VoxelRecord> records_;
 };
 
@@ -103,8 +113,9 @@ std::string column_difference(const FusedView& map, const oracle::VoxelBox& voxe
 
 }  // namespace
 
-std::string difference(const BrickMapView& map, const oracle::VoxelBox& voxels) {
-  return compare::map_difference(BrickMapOf(voxels).view(), map, compare::Same::values);
+std::string difference(const BrickMapView& map, const oracle::VoxelBox& voxels,
+                       const oracle::ColumnHeights& lowest_ray) {
+  return compare::map_difference(BrickMapOf(voxels, lowest_ray).view(), map, compare::Same::values);
 }
 
 std::string difference(const BrickMapView& map, const oracle::BufferMap& expected) {
@@ -113,12 +124,13 @@ std::string difference(const BrickMapView& map, const oracle::BufferMap& expecte
   if (map.stamp_ns != expected.stamp_ns) return "stamp of the map";
   oracle::VoxelBox voxels(expected.grid);
   for (const oracle::WorldVoxel& one : expected.observed) voxels[one.at] = one.voxel;
-  return difference(map, voxels);
+  return difference(map, voxels, expected.lowest_ray);
 }
 
 std::string difference(const FusedView& map, const oracle::Fusion& expected, int min_hits) {
   const oracle::VoxelBox voxels = expected.voxels();
   const std::vector<std::int64_t> newest_ns = oracle::newest_stamps(expected);
+  oracle::ColumnHeights lowest_ray = expected.lowest_ray();
   for (int y = 0; y < map.n_xy; ++y)
     for (int x = 0; x < map.n_xy; ++x) {
       std::string wrong = column_difference(map, voxels, min_hits, x, y);
@@ -126,6 +138,9 @@ std::string difference(const FusedView& map, const oracle::Fusion& expected, int
       const std::int64_t due_ns = newest_ns[std::size_t(y) * std::size_t(map.n_xy) + std::size_t(x)];
       const std::int64_t found_ns = map.last_seen_ns[map.column(x, y)];
       if (found_ns != due_ns) return text("last seen ", found_ns, ", due: ", due_ns) + place(x, y, 0);
+      const float found_m = map.lowest_ray_m[map.stacked_column(x, y)];
+      if (!same_bits(found_m, *lowest_ray.at(x, y)))
+        return text("lowest ray ", found_m, ", due: ", *lowest_ray.at(x, y)) + place(x, y, 0);
     }
   return {};
 }
@@ -148,7 +163,7 @@ std::string export_difference(MapFuser& fuser, const oracle::Fusion& expected) {
   const oracle::VoxelBox voxels = expected.voxels();
   const Grid grid = fuser.moment().grid;
   if (grid.origin != voxels.grid().origin) return "origin of the fused map";
-  const std::string wrong = difference(storage.view(grid, 0, {}), voxels);
+  const std::string wrong = difference(storage.view(grid, 0, {}), voxels, expected.lowest_ray());
   return wrong.empty() ? wrong : "exported: " + wrong;
 }
 

@@ -9,15 +9,16 @@
 
 namespace gvom::test {
 
-/// Holds a brick map against voxels, and to the one form that it may have: bricks in order of slots, only
-/// such with an observed voxel, records in order of bricks and cells (R6). In the words of
+/// Holds a brick map against voxels and lowest rays, and to the one form that it may have: bricks in order of
+/// slots, only such with an observed voxel, records in order of bricks and cells (R6). In the words of
 /// tools/compare/maps.hpp, as the layers' below.
-std::string difference(const BrickMapView& map, const oracle::VoxelBox& voxels);
+std::string difference(const BrickMapView& map, const oracle::VoxelBox& voxels,
+                       const oracle::ColumnHeights& lowest_ray);
 
 /// The same of a buffer map, with its grid and stamp.
 std::string difference(const BrickMapView& map, const oracle::BufferMap& expected);
 
-/// Voxels, masks of occupied and free (R8) and last seen stamps of the fused map.
+/// Voxels, masks of occupied and free (R8), last seen stamps and lowest rays (R5a) of the fused map.
 std::string difference(const FusedView& map, const oracle::Fusion& expected, int min_hits);
 
 /// All layers, to the bit; NaN is NaN.

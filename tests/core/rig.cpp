@@ -86,6 +86,19 @@ oracle::Voxel Rig::voxel(double x_m, double y_m, double z_m) const {
   return {map.hits[cell], map.passes[cell], map.min_height_m[cell]};
 }
 
+float Rig::lowest_ray_m(double x_m, double y_m) const {
+  const Grid grid = fuser_.moment().grid;
+  const FusedView map = cpu_map(fuser_)->view();
+  const auto x = static_cast<std::int32_t>(std::floor(x_m / grid.resolution_m[0])) - grid.origin[0];
+  const auto y = static_cast<std::int32_t>(std::floor(y_m / grid.resolution_m[1])) - grid.origin[1];
+  return map.lowest_ray_m[map.stacked_column(x, y)];
+}
+
+void Rig::reset() {
+  fuser_.reset();
+  kept_.clear();
+}
+
 oracle::Voxel Rig::total() const {
   const FusedView map = cpu_map(fuser_)->view();
   const Int3 size = fuser_.moment().grid.size;

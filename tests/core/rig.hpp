@@ -33,10 +33,15 @@ class Rig {
   AddResult see(const Points& points_m, std::int64_t stamp_ns = 1'000'000'000,
                 const Eigen::Vector3d& vehicle_m = Eigen::Vector3d::Zero());
 
+  /// Forgets all maps.
+  void reset();
+
   /// The layers, made afresh, in the column that holds a place.
   ColumnValues column(double x_m, double y_m);
   /// The fused voxel that holds a point.
   [[nodiscard]] oracle::Voxel voxel(double x_m, double y_m, double z_m) const;
+  /// The lowest point of a ray (R5a) in the fused column that holds a place.
+  [[nodiscard]] float lowest_ray_m(double x_m, double y_m) const;
   /// Sums over all fused voxels.
   [[nodiscard]] oracle::Voxel total() const;
 

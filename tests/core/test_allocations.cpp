@@ -61,19 +61,25 @@ MapperConfig config() {
 struct Chunk {
   std::vector<std::int32_t> directory, lookup;
   std::vector<std::uint64_t> columns;
+  std::vector<float> lowest_ray_m;
   std::vector<VoxelRecord> records;
 
-  explicit Chunk(std::uint32_t bricks)
-      : directory(bricks), lookup(std::size_t{bricks} * kBrickCells), columns(bricks), records(kReturns) {}
-  BrickMapArrays arrays() { return {directory.data(), lookup.data(), columns.data(), records.data()}; }
+  explicit Chunk(const Grid& grid)
+      : directory(grid.brick_slots()),
+        lookup(directory.size() * kBrickCells),
+        columns(directory.size()),
+        lowest_ray_m(grid.columns()),
+        records(kReturns) {}
+  BrickMapArrays arrays() {
+    return {directory.data(), lookup.data(), columns.data(), lowest_ray_m.data(), records.data()};
+  }
 };
 
 // One lidar's drive in a circle; every sweep is counted, written, fused and made into layers.
 class Drive {
  public:
   Drive() {
-    for (int i = 0; i < 6; ++i)
-      chunks_.emplace_back(grid_around(config().map, Eigen::Vector3d::Zero()).brick_slots());
+    for (int i = 0; i < 6; ++i) chunks_.emplace_back(grid_around(config().map, Eigen::Vector3d::Zero()));
     sweep_.returns.reserve(kReturns);
     sweep_.times_ns.reserve(10);
   }
@@ -94,6 +100,7 @@ class Drive {
                             chunk.directory.data(),
                             chunk.lookup.data(),
                             chunk.columns.data(),
+                            chunk.lowest_ray_m.data(),
                             chunk.records.data()};
     added_ += fuser_.add({view, 0, steps_}).value() == AddResult::added;
     failures_ += !fuser_.make_layers(layers_.arrays());

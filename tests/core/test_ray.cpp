@@ -1,9 +1,9 @@
-// The walk of a ray (R5): against the oracle's sorted crossings, and against geometry.
+// The walk of a ray (R5, R5a): against the oracle's sorted crossings, and against geometry.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdlib>
 
-#include "core/ray.hpp"
+#include "core/lowest_ray.hpp"
 #include "tests/core/random.hpp"
 #include "tests/oracle/ray.hpp"
 
@@ -61,6 +61,31 @@ bool goes_through(const Eigen::Vector3d& start, const Eigen::Vector3d& end, cons
   return enter <= leave;
 }
 
+// Where the ray leaves columns, as the product's own walk says.
+std::vector<ColumnLeft> columns_left(const FixedRay& ray) {
+  std::vector<ColumnLeft> left;
+  RayHeights heights(ray.from, ray.to);
+  walk_ray(
+      ray.from, ray.to, [](int, int, int) { return true; },
+      [&](int axis, int x, int y, int) {
+        if (axis < 2) left.push_back(heights.leave(axis, x, y));
+      });
+  return left;
+}
+
+// Whether the ray is that high, to 2 mm of a voxel of 0.4 m, somewhere on the way out of the column.
+bool is_height_on_the_way(const Eigen::Vector3d& start, const Eigen::Vector3d& end, const ColumnLeft& left) {
+  const double z = left.height / kHeightOne;
+  double nearest = 1e9;
+  for (int a = 0; a < 2; ++a) {
+    const double along = end[a] - start[a];
+    if (along == 0) continue;
+    const double face = (a == 0 ? left.x : left.y) + (along > 0 ? 1 : 0);
+    nearest = std::min(nearest, std::abs(start.z() + (face - start[a]) / along * (end.z() - start.z()) - z));
+  }
+  return nearest < 0.005;
+}
+
 TEST_CASE("A fixed coordinate keeps its voxel, also below zero and on faces") {
   CHECK(fixed_voxel(to_fixed(3.0, 0)) == 3);
   CHECK(fixed_voxel(to_fixed(std::nextafter(3.0, 0.0), 0)) == 2);
@@ -105,6 +130,26 @@ TEST_CASE("Random rays take the same way as the oracle's, and it is theirs") {
     for (std::size_t v = 1; v < voxels.size(); ++v) connected &= are_neighbours(voxels[v - 1], voxels[v]);
     for (const Int3& voxel : voxels) on_the_way &= goes_through(start, end, voxel, 1e-6);
     REQUIRE(connected);
+    REQUIRE(on_the_way);
+  }
+}
+
+TEST_CASE("Random rays leave columns where the oracle's do, at their height to 2 mm") {
+  Random random(8);
+  for (int i = 0; i < 20'000; ++i) {
+    const Eigen::Vector3d start = random_point(random), end = random_point(random);
+    const FixedRay ray(start, end);
+    const std::vector<ColumnLeft> left = columns_left(ray);
+    const std::vector<oracle::Departure> expected = oracle::departures(ray.from, ray.to);
+    INFO("ray " << i << " from " << start.transpose() << " to " << end.transpose());
+    REQUIRE(left.size() == expected.size());
+    bool same = true, on_the_way = true;
+    for (std::size_t k = 0; k < left.size(); ++k) {
+      same &= left[k].x == expected[k].from[0] && left[k].y == expected[k].from[1];
+      same &= left[k].height == expected[k].height;
+      on_the_way &= is_height_on_the_way(start, end, left[k]);
+    }
+    REQUIRE(same);
     REQUIRE(on_the_way);
   }
 }

@@ -48,11 +48,13 @@ BrickMapArrays Segment::loan_map(const BrickMapShape& shape, BrickMapView& view)
   const BrickMapArrays arrays{reinterpret_cast<std::int32_t*>(chunk + layout.directory),
                               reinterpret_cast<std::int32_t*>(chunk + layout.lookup),
                               reinterpret_cast<std::uint64_t*>(chunk + layout.columns),
+                              reinterpret_cast<float*>(chunk + layout.lowest_ray),
                               reinterpret_cast<VoxelRecord*>(chunk + layout.records)};
   view.shape = shape;
   view.directory = arrays.directory;
   view.lookup = arrays.lookup;
   view.columns = arrays.columns;
+  view.lowest_ray_m = arrays.lowest_ray_m;
   view.records = arrays.records;
   view.bytes_in_one = layout.bytes;
   return arrays;

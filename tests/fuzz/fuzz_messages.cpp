@@ -66,7 +66,8 @@ void fuse(const ipc::BrickMapSample& map) {
 
 double read_map(const std::byte* message) {
   const ipc::BrickMapSample map(ipc::Chunk(nullptr, message));
-  double sum = sum_of(map.directory()) + sum_of(map.lookup()) + sum_of(map.columns());
+  double sum =
+      sum_of(map.directory()) + sum_of(map.lookup()) + sum_of(map.columns()) + sum_of(map.lowest_ray_m());
   for (const VoxelRecord& record : map.records()) sum += record.hits + record.passes;
   if (map.validate_deep()) fuse(map);
   return sum;

@@ -46,17 +46,20 @@ void set_frame(Message& message) {
 
 /// One brick: a voxel that was hit, one that was passed.
 ByteVector map_message(const ipc::Topic& topic) {
-  const auto layout = ipc::brick_map_layout({1, 1, 1});
+  const auto layout = ipc::brick_map_layout({1, 1, 1, kBrickColumns});
   ByteVector message = blank(topic, layout.bytes);
   auto& map = as<ipc::BrickMap>(message);
   set_frame(map);
   for (std::int32_t& origin : map.grid.origin) origin = -kSize / 2 / 8 * 8 - 8;
-  map.shape = {1, 1, 1};
+  map.shape = {1, 1, 1, kBrickColumns};
   auto* lookup = reinterpret_cast<std::int32_t*>(message.data() + layout.lookup);
   std::fill_n(lookup, kBrickCells, -1);
   lookup[3] = 0;
   lookup[4] = -2;
   *reinterpret_cast<std::uint64_t*>(message.data() + layout.columns) = 1;
+  auto* lowest_ray_m = reinterpret_cast<float*>(message.data() + layout.lowest_ray);
+  std::fill_n(lowest_ray_m, kBrickColumns, kNoRay_m);
+  lowest_ray_m[1] = 0.25F;
   *reinterpret_cast<VoxelRecord*>(message.data() + layout.records) = {2, 1, 0.5F};
   return message;
 }

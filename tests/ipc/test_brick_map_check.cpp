@@ -58,6 +58,14 @@ TEST_CASE("a column that was observed without its bit, or has it without, is a f
   CHECK(fault_of([](TwoBricks& map) { map.lookup()[40] = -2; }) == Part::columns);
 }
 
+TEST_CASE("a ray's lowest point at no height is a fault") {
+  for (const float height_m : {-INFINITY, NAN, -1e38F, 1e38F})
+    CHECK(fault_of([&](TwoBricks& map) { map.lowest_ray_m()[255] = height_m; }) == Part::lowest_ray);
+  TwoBricks map;
+  map.lowest_ray_m()[255] = -0.5F;
+  CHECK(map.sample().validate_deep().has_value());
+}
+
 TEST_CASE("a record without hits, or at no height, is a fault") {
   CHECK(fault_of([](TwoBricks& map) { map.records()[1].hits = 0; }) == Part::records);
   for (const float height_m : {INFINITY, -INFINITY, NAN, -1e38F})

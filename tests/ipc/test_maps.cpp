@@ -15,6 +15,7 @@ using namespace gvom::ipc::test;
 namespace {
 
 constexpr std::uint32_t kSlots = 256;
+constexpr std::uint32_t kGridColumns = 64 * 64;
 constexpr std::uint64_t kColumns[2] = {~std::uint64_t{0}, 0x7ff};  // 512 and 86 voxels were observed
 
 void fill_grid(BrickMap& map) {
@@ -24,7 +25,7 @@ void fill_grid(BrickMap& map) {
 
 /// Two bricks, three records.
 BrickMapWriter write_map(BrickMapPublisher& publisher) {
-  auto map = publisher.loan({kSlots, 2, 3}).value();
+  auto map = publisher.loan({kSlots, 2, 3, kGridColumns}).value();
   fill_grid(map.header());
   for (auto& entry : map.directory()) entry = -1;
   map.directory()[17] = 0;
@@ -34,6 +35,8 @@ BrickMapWriter write_map(BrickMapPublisher& publisher) {
   for (int i = 0; i < 3; ++i) map.lookup()[i * 100] = i;
   map.columns()[0] = kColumns[0];
   map.columns()[1] = kColumns[1];
+  for (auto& lowest_m : map.lowest_ray_m()) lowest_m = kNoRay_m;
+  map.lowest_ray_m()[99] = -1.5f;
   for (int i = 0; i < 3; ++i) map.records()[i] = {7u + i, 11u + i, 0.25f * static_cast<float>(i)};
   return map;
 }
@@ -50,7 +53,8 @@ TEST_CASE("a brick map is read where it was written") {
   Child ingest([] {
     auto runtime = Runtime::connect("ingest", kPatience).value();
     auto publisher = open_map_publisher(runtime, "top");
-    for (int i = 0; i < 100; ++i) EXPECT(publisher.loan({kSlots, 2, 3}));  // abandoned: all come back
+    for (int i = 0; i < 100; ++i)
+      EXPECT(publisher.loan({kSlots, 2, 3, kGridColumns}));  // abandoned: all come back
     EXPECT(eventually([&] { return publisher.has_subscribers(); }));
     publisher.publish(write_map(publisher), 123, 4);
   });
@@ -66,6 +70,8 @@ TEST_CASE("a brick map is read where it was written") {
     EXPECT(std::accumulate(map->directory().begin(), map->directory().end(), 0) == 1 - 254);
     EXPECT(map->lookup().size() == 1024 && map->lookup()[1] == -598 && map->lookup()[200] == 2);
     EXPECT(map->columns()[0] == kColumns[0] && map->columns()[1] == kColumns[1]);
+    EXPECT(map->lowest_ray_m().size() == kGridColumns && map->lowest_ray_m()[98] == kNoRay_m &&
+           map->lowest_ray_m()[99] == -1.5f);
     EXPECT(map->records().size() == 3 && map->records()[2].passes == 13 &&
            map->records()[2].min_height_m == 0.5f);
     const auto segment = runtime.payload_segment().value();
@@ -94,8 +100,9 @@ TEST_CASE("a map that contradicts itself is refused") {
                      EXPECT(!send([](auto& map) { map.header().shape.record_count = 4; }));
                      EXPECT(!send([](auto& map) { map.header().shape.brick_count = 257; }));
                      EXPECT(!send([](auto& map) { map.header().shape.brick_slots = 255; }));
+                     EXPECT(!send([](auto& map) { map.header().shape.column_count = 4095; }));
                      EXPECT(!send([](auto& map) { map.header().grid.size[2] = 33; }));
-                     EXPECT(subscriber.counters().refused_size == 4);
+                     EXPECT(subscriber.counters().refused_size == 5);
                      EXPECT(!send([](auto& map) { map.directory()[0] = 2; })->validate_deep());
                    }).wait();
   CHECK(code == 0);
@@ -107,28 +114,28 @@ TEST_CASE("loans that cannot be are errors, not the end") {
   Child process([] {
     auto runtime = Runtime::connect("both", kPatience).value();
     auto publisher = open_map_publisher(runtime, "top");
-    EXPECT(publisher.loan({kSlots, 256, 20000}).error().kind == ErrorKind::too_large);
+    EXPECT(publisher.loan({kSlots, 256, 20000, kGridColumns}).error().kind == ErrorKind::too_large);
     auto boaster = BrickMapPublisher::buffer_map(runtime, "top", 1u << 30).value();
-    EXPECT(boaster.loan({kSlots, 1, 1}).error().kind == ErrorKind::too_large);
+    EXPECT(boaster.loan({kSlots, 1, 1, kGridColumns}).error().kind == ErrorKind::too_large);
     EXPECT(BrickMapPublisher::buffer_map(runtime, "Top", 1).error().kind == ErrorKind::bad_name);
 
     std::deque<BrickMapWriter> loans;
-    for (int i = 0; i < 8; ++i) loans.push_back(publisher.loan({kSlots, 1, 1}).value());
-    EXPECT(publisher.loan({kSlots, 1, 1}).error().kind == ErrorKind::exhausted);
+    for (int i = 0; i < 8; ++i) loans.push_back(publisher.loan({kSlots, 1, 1, kGridColumns}).value());
+    EXPECT(publisher.loan({kSlots, 1, 1, kGridColumns}).error().kind == ErrorKind::exhausted);
     loans.clear();
 
     auto subscriber = BrickMapSubscriber::buffer_map(runtime, "top").value();
     EXPECT(eventually([&] { return publisher.has_subscribers(); }));
     std::deque<BrickMapSample> held;
-    while (auto map = publisher.loan({kSlots, 0, 0})) {
+    while (auto map = publisher.loan({kSlots, 0, 0, kGridColumns})) {
       fill_grid(map->header());
       publisher.publish(std::move(*map), 0, 0);
       held.push_back(*subscriber.take());
       EXPECT(held.size() < 100);
     }
-    EXPECT(publisher.loan({kSlots, 1, 1}).error().kind == ErrorKind::exhausted);
+    EXPECT(publisher.loan({kSlots, 1, 1, kGridColumns}).error().kind == ErrorKind::exhausted);
     held.pop_front();
-    EXPECT(publisher.loan({kSlots, 1, 1}));
+    EXPECT(publisher.loan({kSlots, 1, 1, kGridColumns}));
   });
   CHECK(process.wait() == 0);
 }
@@ -151,7 +158,7 @@ TEST_CASE("the pools suffice for full queues and full windows of the largest map
     for (int sweep = 0; sweep < 200; ++sweep) {
       for (Lidar& lidar : lidars) {
         EXPECT(eventually([&] { return lidar.publisher.has_subscribers(); }));
-        auto map = lidar.publisher.loan({kSlots, 256, 10000});
+        auto map = lidar.publisher.loan({kSlots, 256, 10000, kGridColumns});
         EXPECT(map);
         fill_grid(map->header());
         lidar.publisher.publish(std::move(*map), sweep, 0);
@@ -173,7 +180,7 @@ TEST_CASE("a reader killed with its hands full takes nothing to the grave") {
     auto runtime = Runtime::connect("ingest", kPatience).value();
     auto publisher = open_map_publisher(runtime, "top");
     while (!life.reached(20)) {
-      auto map = publisher.loan({kSlots, 0, 0});
+      auto map = publisher.loan({kSlots, 0, 0, kGridColumns});
       EXPECT(map);
       fill_grid(map->header());
       publisher.publish(std::move(*map), 0, 0);

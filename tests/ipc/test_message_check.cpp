@@ -51,8 +51,8 @@ TEST_CASE("a message of another version is refused, and the release that it is o
   CHECK(std::string(release()) == "0.3.0");
   CHECK(refusal_of_version(layers_topic(), 1) == "message of gvom 0.2 (version 1" + ours + "2)");
   CHECK(refusal_of_version(layers_topic(), 3) == "message of a newer gvom (version 3" + ours + "2)");
-  CHECK(refusal_of_version(*buffer_map_topic("top"), 2) == "message of gvom 0.2 (version 2" + ours + "3)");
-  CHECK(refusal_of_version(voxel_map_topic(), 1) == "message of gvom 0.1 (version 1" + ours + "3)");
+  CHECK(refusal_of_version(*buffer_map_topic("top"), 2) == "message of gvom 0.2 (version 2" + ours + "4)");
+  CHECK(refusal_of_version(voxel_map_topic(), 1) == "message of gvom 0.1 (version 1" + ours + "4)");
   CHECK(refusal_of_version(topic_of<Health>(), 2) == "message of gvom 0.2 (version 2" + ours + "3)");
   for (const Topic& topic : {layers_topic(), *buffer_map_topic("top"), voxel_map_topic(), topic_of<Health>(),
                              topic_of<Odometry>(), topic_of<Progress>()})

@@ -24,11 +24,12 @@ Pool pool_for(const PoolPlan& plan, std::size_t bytes) {
 }  // namespace
 
 TEST_CASE("arrays of a brick map follow each other, aligned") {
-  const BrickMapLayout layout = brick_map_layout({7, 3, 5});
+  const BrickMapLayout layout = brick_map_layout({7, 3, 5, 64});
   CHECK(layout.directory == up_to_64(sizeof(BrickMap)));
   CHECK(layout.lookup == layout.directory + 64);  // 7 * 4 bytes
   CHECK(layout.columns == layout.lookup + 3 * 2048);
-  CHECK(layout.records == layout.columns + 64);  // 3 * 8 bytes
+  CHECK(layout.lowest_ray == layout.columns + 64);  // 3 * 8 bytes
+  CHECK(layout.records == layout.lowest_ray + 64 * 4);
   CHECK(layout.bytes == layout.records + 5 * 12);
 }
 
@@ -44,15 +45,17 @@ TEST_CASE("layers are ten float arrays and three byte arrays") {
 TEST_CASE("the paper's grid") {
   const PoolSpec spec;
   CHECK(brick_slots(spec) == 8192);
-  CHECK(buffer_map_capacity(spec) == up_to_64(sizeof(BrickMap)) + 8192 * (4 + 2048 + 8) + 262144 * 12);
+  CHECK(buffer_map_capacity(spec) ==
+        up_to_64(sizeof(BrickMap)) + 8192 * (4 + 2048 + 8) + 65536 * 4 + 262144 * 12);
   // 8 maps of 262144 returns each can fill 2097152 of the 4194304 voxels.
-  CHECK(voxel_map_capacity(spec) == up_to_64(sizeof(BrickMap)) + 8192 * (4 + 2048 + 8) + 2097152 * 12);
+  CHECK(voxel_map_capacity(spec) ==
+        up_to_64(sizeof(BrickMap)) + 8192 * (4 + 2048 + 8) + 65536 * 4 + 2097152 * 12);
 }
 
 TEST_CASE("records are never more than voxels") {
   PoolSpec spec;
   spec.size_xy = spec.size_z = 8;
-  CHECK(buffer_map_capacity(spec) == brick_map_bytes({1, 1, 512}));
+  CHECK(buffer_map_capacity(spec) == brick_map_bytes({1, 1, 512, 64}));
 }
 
 TEST_CASE("each topic has the chunks that its queues and holders can keep") {

@@ -14,7 +14,8 @@ namespace gvom::ipc::test {
 class TwoBricks {
  public:
   explicit TwoBricks(std::uint32_t brick_count = 2, std::uint32_t record_count = 2)
-      : layout_(brick_map_layout({4, brick_count, record_count})), memory_(layout_.bytes / sizeof(Line) + 1) {
+      : layout_(brick_map_layout({4, brick_count, record_count, kColumns})),
+        memory_(layout_.bytes / sizeof(Line) + 1) {
     BrickMap& map = header();
     map.header.magic = kMagic;
     map.header.type = static_cast<std::uint16_t>(MessageType::buffer_map);
@@ -23,7 +24,8 @@ class TwoBricks {
     map.grid.size[0] = map.grid.size[1] = 16;
     map.grid.size[2] = 8;
     map.T_odom_base.orientation_xyzw[3] = 1;
-    map.shape = {4, brick_count, record_count};
+    map.shape = {4, brick_count, record_count, kColumns};
+    std::fill_n(lowest_ray_m(), kColumns, kNoRay_m);
     std::fill_n(directory(), map.shape.brick_slots, -1);
     std::fill_n(lookup(), brick_count * kBrickCells, -1);
     for (std::uint32_t brick = 0; brick < brick_count; ++brick) {
@@ -41,10 +43,13 @@ class TwoBricks {
   [[nodiscard]] std::int32_t* directory() { return at<std::int32_t>(layout_.directory); }
   [[nodiscard]] std::int32_t* lookup() { return at<std::int32_t>(layout_.lookup); }
   [[nodiscard]] std::uint64_t* columns() { return at<std::uint64_t>(layout_.columns); }
+  [[nodiscard]] float* lowest_ray_m() { return at<float>(layout_.lowest_ray); }
   [[nodiscard]] VoxelRecord* records() { return at<VoxelRecord>(layout_.records); }
   [[nodiscard]] BrickMapSample sample() { return BrickMapSample(Chunk(nullptr, data())); }
 
  private:
+  static constexpr std::uint32_t kColumns = 256;
+
   struct alignas(kArrayAlignment) Line {
     std::byte bytes[kArrayAlignment];
   };

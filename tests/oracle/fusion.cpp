@@ -49,4 +49,20 @@ VoxelBox Fusion::voxels() const {
   return sum;
 }
 
+ColumnHeights Fusion::lowest_ray() const {
+  const std::vector<const BufferMap*> maps = window();
+  const Grid& grid = maps.front()->grid;
+  ColumnHeights lowest(grid);
+  for (const BufferMap* map : maps) {
+    ColumnHeights of_map = map->lowest_ray;
+    for (std::int64_t y = 0; y < grid.size[1]; ++y)
+      for (std::int64_t x = 0; x < grid.size[0]; ++x) {
+        const float* const height_m =
+            of_map.at(x + grid.origin[0] - map->grid.origin[0], y + grid.origin[1] - map->grid.origin[1]);
+        if (height_m != nullptr) *lowest.at(x, y) = std::min(*lowest.at(x, y), *height_m);
+      }
+  }
+  return lowest;
+}
+
 }  // namespace gvom::oracle

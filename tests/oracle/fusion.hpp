@@ -20,6 +20,8 @@ class Fusion {
 
   /// Sums and minima of the window, in the grid of its newest map.
   [[nodiscard]] VoxelBox voxels() const;
+  /// The lowest heights of rays in the window (R5a), likewise.
+  [[nodiscard]] ColumnHeights lowest_ray() const;
 
  private:
   WindowConfig config_;

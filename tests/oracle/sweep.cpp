@@ -52,7 +52,21 @@ struct OdomRay {
   }
 };
 
-void add_ray(const OdomRay& ray, VoxelBox& box) {
+// R5a.
+void lower_columns(const std::int64_t (&from)[3], const std::int64_t (&to)[3], const VoxelBox& box,
+                   ColumnHeights& lowest) {
+  const Grid& grid = box.grid();
+  for (const Departure& left : departures(from, to)) {
+    const Int3 behind{grid.origin[0] + left.to[0], grid.origin[1] + left.to[1], grid.origin[2] + left.to[2]};
+    float* const lowest_m = lowest.at(left.from[0], left.from[1]);
+    if (lowest_m == nullptr || !box.holds(behind)) continue;
+    const double voxels = grid.origin[2] + static_cast<double>(left.height) / 65536;
+    const auto height_m = static_cast<float>(voxels * grid.resolution_m[2]);
+    if (height_m < *lowest_m) *lowest_m = height_m == 0 ? 0.0f : height_m;
+  }
+}
+
+void add_ray(const OdomRay& ray, VoxelBox& box, ColumnHeights& lowest) {
   const Grid& grid = box.grid();
   std::int64_t from[3], to[3];
   Int3 end;
@@ -65,6 +79,7 @@ void add_ray(const OdomRay& ray, VoxelBox& box) {
     const Int3 world{grid.origin[0] + local[0], grid.origin[1] + local[1], grid.origin[2] + local[2]};
     if (box.holds(world)) ++box[world].passes;
   }
+  lower_columns(from, to, box, lowest);
   if (!box.holds(end)) return;
   Voxel& voxel = box[end];
   const auto height_m = static_cast<float>(ray.return_m[2]);
@@ -115,10 +130,12 @@ std::optional<BufferMap> map_sweep(const MapperConfig& config, const LidarGeomet
   map.T_odom_base = *at_stamp;
   map.grid = grid_at(config.map, at_stamp->translation_m);
   VoxelBox box(map.grid);
+  map.lowest_ray = ColumnHeights(map.grid);
   for (const Return& r : sweep.returns) {
     std::uint64_t* dropped = reason_to_drop(r, lidar, config.vehicle, map.filter);
     ++(dropped != nullptr ? *dropped : map.filter.used);
-    if (dropped == nullptr) add_ray(OdomRay(*poses[r.time_index], lidar.T_base_sensor, r), box);
+    if (dropped == nullptr)
+      add_ray(OdomRay(*poses[r.time_index], lidar.T_base_sensor, r), box, map.lowest_ray);
   }
   map.observed = observed_voxels(box);
   return map;

@@ -18,6 +18,7 @@ struct BufferMap {
   Pose T_odom_base;
   Grid grid;
   std::vector<WorldVoxel> observed;
+  ColumnHeights lowest_ray{Grid{}};  ///< R5a.
   FilterCounts filter;
 };
 

@@ -1,4 +1,4 @@
-// Voxels in the plainest form: a list of those observed, or a dense box.
+// Voxels in the plainest form: a list of those observed, or a dense box; and a height for each column.
 #pragma once
 
 #include <cstddef>
@@ -59,6 +59,23 @@ class VoxelBox {
 
   Grid grid_;
   std::vector<Voxel> voxels_;
+};
+
+/// A height for each column of a grid, [y][x].
+struct ColumnHeights {
+  Grid grid;
+  std::vector<float> at_m;
+
+  /// None anywhere.
+  explicit ColumnHeights(const Grid& of)
+      : grid(of),
+        at_m(std::size_t(of.size[0]) * std::size_t(of.size[1]), std::numeric_limits<float>::infinity()) {}
+
+  /// That of the column at x, y from the origin; null beyond the grid.
+  float* at(std::int64_t x, std::int64_t y) {
+    const bool inside = x >= 0 && y >= 0 && x < grid.size[0] && y < grid.size[1];
+    return inside ? &at_m[std::size_t(y) * std::size_t(grid.size[0]) + std::size_t(x)] : nullptr;
+  }
 };
 
 }  // namespace gvom::oracle

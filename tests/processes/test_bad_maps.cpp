@@ -29,8 +29,9 @@ namespace {
 
 constexpr int kSweeps = 20;
 constexpr char kFusion[] = "gvom-fusion";
-constexpr const char* kCounters[] = {"drop_map_bad_directory", "drop_map_bad_lookup", "drop_map_bad_columns",
-                                     "drop_map_bad_records",   "drop_map_bad_epoch",  "drop_map_bad_time"};
+constexpr const char* kCounters[] = {
+    "drop_map_bad_directory", "drop_map_bad_lookup", "drop_map_bad_columns", "drop_map_bad_lowest_rays",
+    "drop_map_bad_records",   "drop_map_bad_epoch",  "drop_map_bad_time"};
 constexpr std::int64_t kFar_ns = 3'000'000'000'000'000'000;  // the year 2065
 constexpr std::uint64_t kLastEpoch = ~std::uint64_t{0};
 
@@ -68,6 +69,9 @@ void spoil(const BrickMapWriter& map, std::size_t counter) {
     case 2:
       map.columns()[0] ^= 1;
       break;
+    case 3:
+      map.lowest_ray_m()[0] = NAN;
+      break;
     default:
       map.records()[0].min_height_m = NAN;
   }
@@ -82,6 +86,7 @@ BrickMapWriter copy_of(const BrickMapSample& map, BrickMapPublisher& publisher) 
   std::copy(map.directory().begin(), map.directory().end(), copy->directory().begin());
   std::copy(map.lookup().begin(), map.lookup().end(), copy->lookup().begin());
   std::copy(map.columns().begin(), map.columns().end(), copy->columns().begin());
+  std::copy(map.lowest_ray_m().begin(), map.lowest_ray_m().end(), copy->lowest_ray_m().begin());
   std::copy(map.records().begin(), map.records().end(), copy->records().begin());
   return std::move(*copy);
 }
@@ -105,12 +110,12 @@ BrickMapWriter copy_of(const BrickMapSample& map, BrickMapPublisher& publisher) 
     }
     BrickMapWriter copy = copy_of(*map, liar);
     const auto& header = map->header().header;
-    const int kind = sent % 8;
-    Claim claim{header.epoch + (sent / 8 % 2 == 0 ? 0 : 7), header.stamp_ns, 0};
-    if (kind < 4)
+    const int kind = sent % 9;
+    Claim claim{header.epoch + (sent / 9 % 2 == 0 ? 0 : 7), header.stamp_ns, 0};
+    if (kind < 5)
       spoil(copy, static_cast<std::size_t>(kind));
     else
-      claim = lie_of(kind - 4, header);
+      claim = lie_of(kind - 5, header);
     copy.header().odometry_jump_ns = claim.jump_ns;
     liar.publish(std::move(copy), claim.stamp_ns, claim.epoch);
   }

@@ -41,8 +41,9 @@ class EmptyMaps {
   void publish(int number) {
     const auto& size = config_.mapper.map;
     const auto slots = static_cast<std::uint32_t>(size.size_xy * size.size_xy * size.size_z / 512);
-    auto map = maps_.loan({slots, 0, 0}).value();
+    auto map = maps_.loan({slots, 0, 0, ipc::columns(services::pool_spec(config_))}).value();
     std::fill(map.directory().begin(), map.directory().end(), -1);
+    std::fill(map.lowest_ray_m().begin(), map.lowest_ray_m().end(), kNoRay_m);
     ipc::BrickMap& header = map.header();
     header.grid = grid_around(size, Eigen::Vector3d::Zero());
     header.T_odom_base.orientation_xyzw[3] = 1;

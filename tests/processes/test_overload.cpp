@@ -26,8 +26,9 @@ namespace {
   const auto& size = config.mapper.map;
   const auto slots = static_cast<std::uint32_t>(size.size_xy * size.size_xy * size.size_z / 512);
   for (std::int64_t stamp_ns = 1'000'000'000;; stamp_ns += 1'000'000) {
-    auto map = maps.loan({slots, 0, 0}).value();
+    auto map = maps.loan({slots, 0, 0, ipc::columns(services::pool_spec(config))}).value();
     std::fill(map.directory().begin(), map.directory().end(), -1);
+    std::fill(map.lowest_ray_m().begin(), map.lowest_ray_m().end(), kNoRay_m);
     ipc::BrickMap& header = map.header();
     for (int axis = 0; axis < 3; ++axis) {
       header.grid.size[axis] = axis < 2 ? size.size_xy : size.size_z;

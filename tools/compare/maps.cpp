@@ -55,6 +55,8 @@ std::string map_difference(const BrickMapView& expected, const BrickMapView& fou
              view_of({std::size_t{is.brick_count} * kBrickCells}, found.lookup));
   report.add("columns", view_of({due.brick_count}, expected.columns),
              view_of({is.brick_count}, found.columns));
+  report.add("lowest_ray_m", view_of({due.column_count}, expected.lowest_ray_m),
+             view_of({is.column_count}, found.lowest_ray_m));
   report.add("records", records_of(expected), records_of(found));
   return report.text();
 }

@@ -9,7 +9,7 @@
 
 namespace gvom::compare {
 
-/// Of directory, lookup, columns and records; empty if nothing differs.
+/// Of directory, lookup, columns, lowest rays and records; empty if nothing differs.
 std::string map_difference(const BrickMapView& expected, const BrickMapView& found, Same same = Same::bytes);
 
 /// Of all layers of `size_xy` * `size_xy` columns, indexed [y, x]; empty if nothing differs.

@@ -67,8 +67,9 @@ void Ledger::look_at_fusion(const std::string& process, const tools::Counters& c
       .look(value_of(counters, "maps_in") -
             sum_of(counters, {"maps_fused", "drop_map_too_old", "drop_map_duplicate", "drop_map_wrong_grid",
                               "drop_map_old_epoch", "drop_map_before_jump", "drop_map_bad_directory",
-                              "drop_map_bad_lookup", "drop_map_bad_columns", "drop_map_bad_records",
-                              "drop_map_bad_epoch", "drop_map_bad_time", "drop_map_backend_failed"}));
+                              "drop_map_bad_lookup", "drop_map_bad_columns", "drop_map_bad_lowest_rays",
+                              "drop_map_bad_records", "drop_map_bad_epoch", "drop_map_bad_time",
+                              "drop_map_backend_failed"}));
   balance(process + ": maps fused and no layers made of them", true)
       .look(value_of(counters, "maps_fused") -
             sum_of(counters, {"layers_out", "maps_sharing_layers", "drop_layers_no_chunk"}));

@@ -48,6 +48,7 @@ constexpr Reason kMapReasons[] = {
     {"drop_map_bad_directory", "with a broken directory"},
     {"drop_map_bad_lookup", "with broken lookup values"},
     {"drop_map_bad_columns", "with broken columns"},
+    {"drop_map_bad_lowest_rays", "with broken lowest rays"},
     {"drop_map_bad_records", "with broken records"},
 };
 
