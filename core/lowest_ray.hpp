@@ -2,7 +2,7 @@
 //
 // A ray that leaves a column has found nothing in it on its way. Where it leaves, over an x or a y face, its
 // height is a fixed-point number: that at the first face is rounded once, the others are steps of one rounded
-// size from there, so that every machine finds the same (at most 2 mm off after 256 voxels of 0.4 m).
+// size from there, so that every machine finds the same (0.8 mm off after 256 voxels of 0.4 m, at most).
 #pragma once
 
 #include <cstdint>
@@ -32,19 +32,25 @@ GVOM_HD inline std::uint32_t round_to_32_bits(double value) {
 /// Heights of a ray where it crosses the faces of the x or the y axis, from the grid's origin; they are right
 /// within the grid, modulo 2^32 elsewhere.
 struct FaceHeights {
-  std::uint32_t first;
-  std::uint32_t step;
+  std::uint32_t next = 0;
+  std::uint32_t step = 0;
 
-  /// At the crossing number `k`, from 0.
-  [[nodiscard]] GVOM_HD std::int32_t at(std::uint32_t k) const {
-    return static_cast<std::int32_t>(first + k * step);
+  /// The height at the next face, and on to the one behind it, if the ray `crosses` that.
+  GVOM_HD std::int32_t take_if(bool crosses) {
+    const auto height = static_cast<std::int32_t>(next);
+    next += crosses ? step : 0;
+    return height;
   }
 };
 
-/// @param first at the first face, @param step from face to face: `units` of these are a voxel, a power of
-/// two
-GVOM_HD inline FaceHeights face_heights(double first, double step, double units) {
-  return {round_to_32_bits(first * (kHeightOne / units)), round_to_32_bits(step * (kHeightOne / units))};
+/// @param along_z, along what the ray goes along z and along the axis, @param offset its way to the first
+/// face along the axis, all fixed
+GVOM_HD inline FaceHeights face_heights(std::int64_t from_z, std::int64_t along_z, std::int64_t offset,
+                                        std::int64_t along) {
+  const double one = static_cast<double>(kFixedOne);
+  const double slope = static_cast<double>(along_z) / one * (1 / (static_cast<double>(along) / one));
+  const double first = static_cast<double>(from_z) / one + slope * (static_cast<double>(offset) / one);
+  return {round_to_32_bits(first * kHeightOne), round_to_32_bits(slope * kHeightOne)};
 }
 
 /// Metres in odom, like `min_height_m`.
@@ -64,28 +70,23 @@ struct ColumnLeft {
 class RayHeights {
  public:
   GVOM_HD RayHeights(const std::int64_t (&from)[3], const std::int64_t (&to)[3]) {
-    const double one = static_cast<double>(kFixedOne);
-    const double z = static_cast<double>(from[2]) / one;
-    const double along_z = static_cast<double>(to[2] - from[2]) / one;
-    for (int a = 0; a < 2; ++a) {
-      const RayAxis axis = ray_axis(from[a], to[a]);
-      step_[a] = axis.step;
-      if (axis.crossings == 0) continue;
-      const double slope = along_z * (1 / (static_cast<double>(axis.length) / one));
-      heights_[a] = face_heights(z + slope * (static_cast<double>(axis.offset) / one), slope, 1);
-    }
+    const RayAxis x = ray_axis(from[0], to[0]), y = ray_axis(from[1], to[1]);
+    step_x_ = x.step, step_y_ = y.step;
+    const std::int64_t along_z = to[2] - from[2];
+    if (x.crossings > 0) over_x_ = face_heights(from[2], along_z, x.offset, x.length);
+    if (y.crossings > 0) over_y_ = face_heights(from[2], along_z, y.offset, y.length);
   }
 
   /// The next step of the walk, over a face of `axis` (0: x, 1: y), into the column (x, y).
   GVOM_HD ColumnLeft leave(int axis, std::int32_t x, std::int32_t y) {
-    const std::int32_t height = heights_[axis].at(crossed_[axis]++);
-    return {axis == 0 ? x - step_[0] : x, axis == 1 ? y - step_[1] : y, height};
+    const bool over_x = axis == 0;
+    const std::int32_t at_x = over_x_.take_if(over_x), at_y = over_y_.take_if(!over_x);
+    return {over_x ? x - step_x_ : x, over_x ? y : y - step_y_, over_x ? at_x : at_y};
   }
 
  private:
-  std::int32_t step_[2];
-  FaceHeights heights_[2] = {};
-  std::uint32_t crossed_[2] = {};
+  std::int32_t step_x_, step_y_;
+  FaceHeights over_x_, over_y_;
 };
 
 }  // namespace gvom

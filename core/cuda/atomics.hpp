@@ -28,6 +28,16 @@ __device__ inline void lower_to(float* height_m, float value_m) {
     atomicMax(reinterpret_cast<unsigned*>(height_m), __float_as_uint(value_m));
 }
 
+/// Lowers a number to `value`. Most rays find it as low already.
+__device__ inline void lower_to(std::int32_t* number, std::int32_t value) {
+#ifdef __CUDACC__
+  const std::int32_t found = *static_cast<const volatile std::int32_t*>(number);
+#else
+  const std::int32_t found = __atomic_load_n(number, __ATOMIC_RELAXED);
+#endif
+  if (value < found) atomicMin(number, value);
+}
+
 /// Sets a byte that other threads may set to the same.
 __device__ inline void mark(std::uint8_t* byte) {
 #ifdef __CUDACC__

@@ -14,6 +14,7 @@ constexpr std::int32_t kColumns = kBrickEdge * kBrickEdge;
 BrickWriter::BrickWriter(Device& device, const MapConfig& map, std::size_t most_records)
     : device_(device),
       slots_(grid_around(map, Eigen::Vector3d::Zero()).brick_slots()),
+      columns_(grid_around(map, Eigen::Vector3d::Zero()).columns()),
       most_records_(most_records),
       scan_(device, std::size_t{slots_} + 1),
       observed_(device.array<std::uint8_t>(std::size_t{slots_} * kColumns)),
@@ -22,7 +23,8 @@ BrickWriter::BrickWriter(Device& device, const MapConfig& map, std::size_t most_
       starts_(device.array<std::uint64_t>(std::size_t{slots_} + 1)),
       total_(device.pinned_array<std::uint64_t>(1)),
       made_{device.array<std::int32_t>(slots_), device.array<std::int32_t>(std::size_t{slots_} * kBrickCells),
-            device.array<std::uint64_t>(slots_), device.array<VoxelRecord>(most_records)} {}
+            device.array<std::uint64_t>(slots_), device.array<float>(columns_),
+            device.array<VoxelRecord>(most_records)} {}
 
 void BrickWriter::measure(const DenseBricks& bricks, const Grid& grid) {
   bricks_ = bricks;
@@ -36,7 +38,7 @@ void BrickWriter::measure(const DenseBricks& bricks, const Grid& grid) {
 }
 
 BrickMapShape BrickWriter::shape() const {
-  return {slots_, static_cast<std::uint32_t>(*total_ >> 32), static_cast<std::uint32_t>(*total_)};
+  return {slots_, static_cast<std::uint32_t>(*total_ >> 32), static_cast<std::uint32_t>(*total_), columns_};
 }
 
 void BrickWriter::write(const BrickMapArrays& out) {
@@ -49,6 +51,7 @@ void BrickWriter::write(const BrickMapArrays& out) {
   device_.download(out.directory, made_.directory, slots_ * sizeof *out.directory);
   device_.download(out.lookup, made_.lookup, std::size_t{map.brick_count} * kBrickCells * sizeof *out.lookup);
   device_.download(out.columns, made_.columns, map.brick_count * sizeof *out.columns);
+  device_.download(out.lowest_ray_m, made_.lowest_ray_m, map.column_count * sizeof *out.lowest_ray_m);
   device_.download(out.records, made_.records, map.record_count * sizeof *out.records);
 }
 

@@ -18,12 +18,16 @@ class BrickWriter {
   void measure(const DenseBricks& bricks, const Grid& grid);
   [[nodiscard]] BrickMapShape shape() const;
 
+  /// The map's lowest rays (R5a) on the device: for who knows them to fill in before `write`.
+  [[nodiscard]] float* lowest_ray_m() const { return made_.lowest_ray_m; }
+
   /// Sends the measured map to `out`; the bricks must be what they were.
   void write(const BrickMapArrays& out);
 
  private:
   Device& device_;
   std::uint32_t slots_;
+  std::uint32_t columns_;  // of the grid
   std::size_t most_records_;
   Scan scan_;
   DenseBricks bricks_{};

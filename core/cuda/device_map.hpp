@@ -1,6 +1,7 @@
 // Buffer maps and fused map as kernels see them.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "core/format/brick_map.hpp"
@@ -15,6 +16,7 @@ struct DeviceMap {
   const std::int32_t* directory;
   const std::int32_t* lookup;
   const std::uint64_t* columns;
+  const float* lowest_ray_m;
   const VoxelRecord* records;
   /// For each stack of the grid's bricks, [y][x]: which of its 64 columns have an observed voxel in the fused
   /// map's reach. The device keeps it up to date.
@@ -24,6 +26,11 @@ struct DeviceMap {
   GVOM_HD std::int32_t brick_at(const Int3& world_brick) const {
     const std::int32_t slot = grid.slot_of_brick(world_brick);
     return slot < 0 ? -1 : directory[slot];
+  }
+  /// Of the 64 columns of a stack of bricks (R5a), or nullptr where the map does not reach.
+  [[nodiscard]] GVOM_HD const float* lowest_rays_of(std::int32_t bx, std::int32_t by) const {
+    const std::int32_t stack = grid.stack_of_brick(bx, by);
+    return stack < 0 ? nullptr : lowest_ray_m + std::ptrdiff_t{stack} * kBrickColumns;
   }
 };
 

@@ -5,6 +5,7 @@
 
 #include "core/cuda/fill.hpp"
 #include "core/cuda/launch.hpp"
+#include "core/cuda/lowest_ray_kernels.hpp"
 
 namespace gvom::cuda {
 
@@ -20,6 +21,7 @@ FusedMap::FusedMap(Device& device, const MapConfig& map, int min_hits, std::size
   occupied_ = static_cast<std::uint64_t*>(device.allocate(mask_bytes()));
   free_ = static_cast<std::uint64_t*>(device.allocate(mask_bytes()));
   last_seen_ns_ = device.array<std::int64_t>(columns());
+  lowest_ray_m_ = device.array<float>(columns());
   tick_ = device.array<std::byte>(tick_bytes_);
   staged_ = device.pinned_array<std::byte>(kStaged * tick_bytes_);
   listed_ = device.array<std::uint32_t>(slots);
@@ -37,6 +39,7 @@ FusedMap::FusedMap(Device& device, const MapConfig& map, int min_hits, std::size
                                        static_cast<std::uint32_t>(min_hits)});
     for_each_warp(device, grid_.bricks()[0] * grid_.bricks()[1],
                   UpdateLastSeen{tick, last_seen_ns_, grid_.size[0]});
+    for_each_warp(device, grid_.bricks()[0] * grid_.bricks()[1], UpdateLowestRays{tick, lowest_ray_m_});
   });
 }
 
@@ -46,7 +49,7 @@ std::size_t FusedMap::columns() const {
 
 FusedView FusedMap::view() const {
   return {grid_.size[0],        grid_.size[2], words_, toroidal_origin(grid_), bricks_.hits, bricks_.passes,
-          bricks_.min_height_m, occupied_,     free_,  last_seen_ns_};
+          bricks_.min_height_m, occupied_,     free_,  last_seen_ns_,          lowest_ray_m_};
 }
 
 void FusedMap::clear() {
@@ -57,7 +60,12 @@ void FusedMap::clear() {
   device_.clear(occupied_, mask_bytes());
   device_.clear(free_, mask_bytes());
   for_each(device_, static_cast<std::int32_t>(columns()), Fill<std::int64_t>{last_seen_ns_, kNeverSeen});
+  for_each(device_, static_cast<std::int32_t>(columns()), Fill<float>{lowest_ray_m_, kNoRay_m});
   empty_ = true;
+}
+
+void FusedMap::copy_lowest_rays(const Grid& grid, float* lowest_ray_m) {
+  for_each(device_, static_cast<std::int32_t>(columns()), CopyRays{grid, lowest_ray_m_, lowest_ray_m});
 }
 
 void FusedMap::update(const Window& window, std::uint32_t added_place, const MapRing& ring) {

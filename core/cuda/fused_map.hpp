@@ -20,6 +20,8 @@ class FusedMap {
   /// `ring`.
   void update(const Window& window, std::uint32_t added_place, const MapRing& ring);
   void clear();
+  /// Writes the lowest rays (R5a) in the order of a map of `grid`, to memory of the device.
+  void copy_lowest_rays(const Grid& grid, float* lowest_ray_m);
   /// The device has done all that was asked of it so far.
   void settled() { staged_ticks_ = 0; }
 
@@ -45,6 +47,7 @@ class FusedMap {
   std::uint64_t* occupied_;
   std::uint64_t* free_;
   std::int64_t* last_seen_ns_;
+  float* lowest_ray_m_;
   std::byte* tick_;         // a FuseTick and its maps
   std::size_t tick_bytes_;  // room for it
   std::byte* staged_;       // pinned, kStaged times

@@ -87,6 +87,7 @@ DeviceExpected<BrickMapShape> Fusion::count_voxels() {
 }
 
 DeviceExpected<void> Fusion::write_voxels(const BrickMapArrays& out) {
+  map_.copy_lowest_rays(newest_moment(window_).grid, voxel_writer_.lowest_ray_m());
   voxel_writer_.write(out);
   return settle();
 }

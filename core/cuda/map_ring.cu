@@ -9,9 +9,10 @@ namespace {
 constexpr std::size_t kRoomStep = std::size_t{1} << 20;
 
 std::size_t most_bytes_of(const MapConfig& map, std::size_t most_records) {
-  const std::uint32_t slots = grid_around(map, Eigen::Vector3d::Zero()).brick_slots();
+  const Grid grid = grid_around(map, Eigen::Vector3d::Zero());
+  const std::uint32_t slots = grid.brick_slots();
   const std::size_t records = std::min(most_records, std::size_t{slots} * kBrickCells);
-  return brick_map_layout(0, {slots, slots, static_cast<std::uint32_t>(records)}).bytes;
+  return brick_map_layout(0, {slots, slots, static_cast<std::uint32_t>(records), grid.columns()}).bytes;
 }
 
 }  // namespace
@@ -58,6 +59,7 @@ DeviceMap MapRing::read_in_place(const BrickMapView& map) {
                      seen(map.directory, shape.brick_slots),
                      seen(map.lookup, shape.brick_count),
                      seen(map.columns, shape.brick_count),
+                     seen(map.lowest_ray_m, shape.column_count),
                      seen(map.records, shape.record_count),
                      nullptr};
   if (at.directory == nullptr) device_.fail("a map lies outside of the pinned memory");
@@ -83,8 +85,14 @@ DeviceMap MapRing::send_in_one(const BrickMapView& map, std::byte* to) {
   const auto moved = [&](const auto* host) {
     return reinterpret_cast<decltype(host)>(to + (reinterpret_cast<const std::byte*>(host) - from));
   };
-  return {map.grid,           map.stamp_ns, moved(map.directory), moved(map.lookup), moved(map.columns),
-          moved(map.records), nullptr};
+  return {map.grid,
+          map.stamp_ns,
+          moved(map.directory),
+          moved(map.lookup),
+          moved(map.columns),
+          moved(map.lowest_ray_m),
+          moved(map.records),
+          nullptr};
 }
 
 DeviceMap MapRing::send_arrays(const BrickMapView& map, std::byte* to) {
@@ -99,6 +107,7 @@ DeviceMap MapRing::send_arrays(const BrickMapView& map, std::byte* to) {
           send(to, map.directory, map.shape.brick_slots),
           send(to + layout.lookup, map.lookup, std::size_t{map.shape.brick_count} * kBrickCells),
           send(to + layout.columns, map.columns, map.shape.brick_count),
+          send(to + layout.lowest_ray, map.lowest_ray_m, map.shape.column_count),
           send(to + layout.records, map.records, map.shape.record_count),
           nullptr};
 }

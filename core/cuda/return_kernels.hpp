@@ -1,9 +1,10 @@
-// From returns to counted voxels (R2..R5), return by return.
+// From returns to counted voxels and columns (R2..R5a), return by return.
 #pragma once
 
 #include "core/cell.hpp"
 #include "core/cuda/atomics.hpp"
 #include "core/cuda/device_map.hpp"
+#include "core/lowest_ray.hpp"
 #include "core/returns.hpp"
 
 namespace gvom::cuda {
@@ -20,6 +21,7 @@ struct SweepCounters {
   DenseBricks bricks;
   std::uint8_t* touched;    ///< Per brick: something was counted in it.
   std::uint32_t* verdicts;  ///< By Verdict.
+  std::int32_t* lowest;     ///< Per column (`column_in_stacks`): core/lowest_ray.hpp.
 };
 
 /// For each return: filters it, counts the passes of its ray and its hit.
@@ -55,12 +57,22 @@ struct CastReturn {
   /// Up to the ray's end, or to where it leaves the grid for good.
   __device__ void count_passes(const std::int64_t (&from)[3], const std::int64_t (&to)[3]) const {
     bool entered = false;
-    walk_ray(from, to, [this, &entered](std::int32_t x, std::int32_t y, std::int32_t z) {
-      if (!inside(x, y, z)) return !entered;
-      entered = true;
-      add_one(counters.bricks.passes + touch(x, y, z));
-      return true;
-    });
+    RayHeights heights(from, to);
+    walk_ray(
+        from, to,
+        [this, &entered](std::int32_t x, std::int32_t y, std::int32_t z) {
+          if (!inside(x, y, z)) return !entered;
+          entered = true;
+          add_one(counters.bricks.passes + touch(x, y, z));
+          return true;
+        },
+        [this, &heights](int axis, std::int32_t x, std::int32_t y, std::int32_t z) {
+          if (axis == 2) return;
+          const ColumnLeft left = heights.leave(axis, x, y);
+          if (inside(x, y, z) && inside(left.x, left.y, z))
+            lower_to(counters.lowest + column_in_stacks(left.x, left.y, counters.bricks.bricks[0]),
+                     left.height);
+        });
   }
 
   __device__ bool inside(std::int32_t x, std::int32_t y, std::int32_t z) const {

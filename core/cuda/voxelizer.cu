@@ -4,6 +4,7 @@
 
 #include "core/cuda/fill.hpp"
 #include "core/cuda/launch.hpp"
+#include "core/cuda/lowest_ray_kernels.hpp"
 
 namespace gvom::cuda {
 
@@ -23,11 +24,13 @@ Voxelizer::Voxelizer(std::unique_ptr<Device> device, const VoxelizerSetup& setup
       filter_(setup.lidar, setup.vehicle),
       most_returns_(std::max<std::size_t>(setup.max_returns, 1)),
       slots_(grid_around(setup.map, Eigen::Vector3d::Zero()).brick_slots()),
+      grid_(grid_around(setup.map, Eigen::Vector3d::Zero())),
       bricks_{grid_around(setup.map, Eigen::Vector3d::Zero()).bricks(),
               device_->array<std::uint32_t>(std::size_t{slots_} * kBrickCells),
               device_->array<std::uint32_t>(std::size_t{slots_} * kBrickCells),
               device_->array<float>(std::size_t{slots_} * kBrickCells)},
       touched_(device_->array<std::uint8_t>(slots_)),
+      lowest_(device_->array<std::int32_t>(grid_.columns())),
       verdicts_(device_->array<std::uint32_t>(kVerdicts)),
       verdicts_here_(device_->pinned_array<std::uint32_t>(kVerdicts)),
       returns_(device_->array<Return>(most_returns_)),
@@ -45,6 +48,7 @@ Voxelizer::Voxelizer(std::unique_ptr<Device> device, const VoxelizerSetup& setup
 void Voxelizer::forget() {
   for_each(*device_, static_cast<std::int32_t>(slots_) * kColumns, ClearTouched{bricks_, touched_});
   device_->clear(touched_, slots_);
+  for_each(*device_, static_cast<std::int32_t>(grid_.columns()), Fill<std::int32_t>{lowest_, kNoRay});
 }
 
 void Voxelizer::make_room_for_poses(std::size_t count) {
@@ -57,6 +61,7 @@ DeviceExpected<BrickMapShape> Voxelizer::count(const Sweep& sweep, const std::ve
                                                const Grid& grid) {
   if (device_->failed()) return tl::make_unexpected(device_->failure());
   forget();
+  grid_ = grid;
   device_->clear(verdicts_, kVerdicts * sizeof *verdicts_);
   send_poses(T_odom_base, grid);
   cast(sweep, grid);
@@ -99,13 +104,15 @@ void Voxelizer::cast(const Sweep& sweep, const Grid& grid) {
     std::copy_n(sweep.returns.data() + first, count, staged_returns_ + room);
     device_->upload(returns_ + room, staged_returns_ + room, count * sizeof *returns_);
     for_each(*device_, static_cast<std::int32_t>(count),
-             CastReturn{{grid, bricks_, touched_, verdicts_}, filter_, returns_ + room, poses_});
+             CastReturn{{grid, bricks_, touched_, verdicts_, lowest_}, filter_, returns_ + room, poses_});
     first += count;
     room += count;
   }
 }
 
 DeviceExpected<void> Voxelizer::write(const BrickMapArrays& out) {
+  for_each(*device_, static_cast<std::int32_t>(grid_.columns()),
+           MeasureRays{lowest_, grid_.origin[2], grid_.resolution_m[2], writer_.lowest_ray_m()});
   writer_.write(out);
   return device_->wait();
 }

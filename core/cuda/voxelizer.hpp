@@ -34,8 +34,10 @@ class Voxelizer : public VoxelizerBackend {
   ReturnFilter filter_;
   std::size_t most_returns_;
   std::uint32_t slots_;
+  Grid grid_;  // of the sweep
   DenseBricks bricks_;
   std::uint8_t* touched_;
+  std::int32_t* lowest_;  // of SweepCounters
   std::uint32_t* verdicts_;
   std::uint32_t* verdicts_here_;  // pinned
   Return* returns_;

@@ -78,8 +78,9 @@ TEST_CASE("the GPU is measured beside the CPU") {
   const Json& kernels = run.at("kernels");
   for (const char* kernel : {"ClearTouched", "WriteColumns", "running sum"})
     check_times(kernels.at("a sweep, 64 x 64 x 32").at(kernel), 11);
-  CHECK(kernels.at("a tick, 64 x 64 x 32, window 2").size() == 7);
-  for (const char* kernel : {"ListChangedBricks", "UpdateBricks", "UpdateLastSeen", "FinishColumns"})
+  CHECK(kernels.at("a tick, 64 x 64 x 32, window 2").size() == 8);
+  for (const char* kernel :
+       {"ListChangedBricks", "UpdateBricks", "UpdateLastSeen", "UpdateLowestRays", "FinishColumns"})
     check_times(kernels.at("a tick, 64 x 64 x 32, window 2").at(kernel), 4);
   CHECK(contents(log).find("| 64 x 64 x 32 | 2 |") != std::string::npos);
   CHECK(contents(summary).find("\n64 x 64 x 32        2 ") != std::string::npos);
