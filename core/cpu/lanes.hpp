@@ -19,7 +19,6 @@ template <int kLanes>
 struct Vectors {
   typedef std::int32_t Ints __attribute__((vector_size(kLanes * sizeof(std::int32_t))));
   typedef float Floats __attribute__((vector_size(kLanes * sizeof(float))));
-  typedef signed char Bytes __attribute__((vector_size(kLanes)));
   typedef double Doubles __attribute__((vector_size(kLanes * sizeof(double))));
   typedef std::int64_t Longs __attribute__((vector_size(kLanes * sizeof(std::int64_t))));
 };
@@ -71,37 +70,24 @@ GVOM_INLINE void store(void* to, Ints<kLanes> lanes) {
   __builtin_memcpy(to, &lanes, sizeof lanes);
 }
 
-/// The numbers of the set bits, then kLanes.
-template <int kLanes>
-GVOM_INLINE Ints<kLanes> set_bits(std::uint32_t bits) {
-  Ints<kLanes> numbers = all<kLanes>(kLanes);
-  std::size_t n = 0;
-  for (int i = 0; i < kLanes; ++i)
-    if ((bits >> i & 1) != 0) numbers[n++] = i;
-  return numbers;
-}
-
 /// Lane i: what is in the lane of that number, modulo kLanes.
 template <int kLanes>
 GVOM_INLINE Ints<kLanes> picked(Ints<kLanes> lanes, Ints<kLanes> numbers) {
   return __builtin_shuffle(lanes, numbers);
 }
 
-/// Bit i: lane i of a is not that of b; is less.
+/// The numbers of the set bits, then kLanes.
 template <int kLanes>
-GVOM_INLINE std::uint32_t unequal(Ints<kLanes> a, Ints<kLanes> b) {
-  std::uint32_t bits = 0;
-  for (int i = 0; i < kLanes; ++i) bits |= std::uint32_t{a[i] != b[i]} << i;
-  return bits;
-}
+Ints<kLanes> set_bits(std::uint32_t bits);
+/// Bit i: lane i of a is not that of b.
 template <int kLanes>
-GVOM_INLINE std::uint32_t less(Ints<kLanes> a, Ints<kLanes> b) {
-  std::uint32_t bits = 0;
-  for (int i = 0; i < kLanes; ++i) bits |= std::uint32_t{a[i] < b[i]} << i;
-  return bits;
-}
+std::uint32_t unequal(Ints<kLanes> a, Ints<kLanes> b);
+/// Bit i: it is less.
+template <int kLanes>
+std::uint32_t less(Ints<kLanes> a, Ints<kLanes> b);
 
-// Builtins: an intrinsic has a target of its own and cannot be inlined into a template.
+// Of 8 and 16 lanes only. Builtins: an intrinsic has a target of its own and cannot be inlined into a
+// template.
 #ifdef GVOM_CLONE_FOR
 template <>
 GVOM_INLINE Ints<16> set_bits<16>(std::uint32_t bits) {
@@ -117,20 +103,20 @@ GVOM_INLINE std::uint32_t less<16>(Ints<16> a, Ints<16> b) {
 }
 
 struct SetBits {
-  signed char of[256][8];
+  alignas(32) std::int32_t of[256][8];
   constexpr SetBits() : of{} {
     for (int byte = 0; byte < 256; ++byte)
       for (int bit = 0, n = 0; n < 8; ++bit)
-        if (bit >= 8 || (byte >> bit & 1) != 0) of[byte][n++] = static_cast<signed char>(bit < 8 ? bit : 8);
+        if (bit >= 8 || (byte >> bit & 1) != 0) of[byte][n++] = bit < 8 ? bit : 8;
   }
 };
 inline constexpr SetBits kSetBits;
 
 template <>
 GVOM_INLINE Ints<8> set_bits<8>(std::uint32_t bits) {
-  Vectors<8>::Bytes numbers;
+  Ints<8> numbers;
   __builtin_memcpy(&numbers, kSetBits.of[bits], sizeof numbers);
-  return __builtin_convertvector(numbers, Ints<8>);
+  return numbers;
 }
 template <>
 GVOM_INLINE std::uint32_t unequal<8>(Ints<8> a, Ints<8> b) {

@@ -66,14 +66,16 @@ class AxisCrossings {
   using Lanes = Ints<kLanes>;
   static constexpr int kB = kAxis == 0 ? 1 : 0;
   static constexpr int kC = kAxis == 2 ? 1 : 2;
+  // With four lanes it costs more than it saves.
+  static constexpr bool kJoinsNeighbours = kLanes > 4;
 
  public:
   GVOM_INLINE AxisCrossings(const Rays<kLanes>& rays, const CastGrid& grid)
       : rows_(rays.most[kAxis]),
-        shift_(rays.shift),
         units_(all_doubles<kLanes>(1 << rays.shift)),
         from_b_(all_doubles<kLanes>(rays.from[kB])),
         from_c_(all_doubles<kLanes>(rays.from[kC])),
+        shift_(all<kLanes>(rays.shift)),
         last_b_(all<kLanes>(grid.size[kB] - 1)),
         last_c_(all<kLanes>(grid.size[kC] - 1)),
         next_y_(all<kLanes>(grid.next_y)),
@@ -107,7 +109,7 @@ class AxisCrossings {
       start_block(k);
       for (std::int32_t i = std::min(kBlock, rows_ - k); i > 0; --i) write_row(out, tie);
     }
-    return tie >> shift_;
+    return voxel_of(tie);
   }
 
  private:
@@ -116,6 +118,13 @@ class AxisCrossings {
     const Doubles<kLanes> faces = to_face_ + all_doubles<kLanes>(k);
     b_ = rounded<kLanes>((from_b_ + slope_b_ * faces) * units_) - kTieMargin;
     c_ = rounded<kLanes>((from_c_ + slope_c_ * faces) * units_) - kTieMargin;
+  }
+
+  GVOM_INLINE Lanes voxel_of(Lanes coordinate) const {
+    if constexpr (kLanes > 4)
+      return coordinate >> shift_;  // a count for each lane, though all are the same: half as long
+    else
+      return coordinate >> shift_[0];
   }
 
   // What the own coordinate adds to an index.
@@ -130,7 +139,7 @@ class AxisCrossings {
     const Lanes before = own_part_;
     own_ += step_;
     own_part_ = part_of(own_);
-    const Lanes b = b_ >> shift_, c = c_ >> shift_;
+    const Lanes b = voxel_of(b_), c = voxel_of(c_);
     tie |= (b_ ^ (b_ + 2 * kTieMargin)) | (c_ ^ (c_ + 2 * kTieMargin));
     const Lanes outside = (b | (last_b_ - b) | c | (last_c_ - c) | rest_) >> 31;
     const Lanes part_b = kAxis == 0 ? part_of_y(b) : b << 6;
@@ -142,33 +151,43 @@ class AxisCrossings {
   }
 
   GVOM_INLINE void add_passes(Lanes counter, Crossings& out) {
-    const Lanes none = all<kLanes>(-1), end = all<kLanes>(kLanes);
-    const std::uint32_t starts = unequal<kLanes>(counter, moved_down<kLanes, kLanes - 1>(none, counter));
-    const Lanes begin = set_bits<kLanes>(starts);
-    store<kLanes>(out.counter, picked<kLanes>(counter, begin));
-    store<kLanes>(out.passes, moved_down<kLanes, 1>(begin, end) - begin);
-    const int n = __builtin_popcount(starts);
-    out.counter += n;
-    out.passes += n;
+    if constexpr (kJoinsNeighbours) {
+      const Lanes none = all<kLanes>(-1), end = all<kLanes>(kLanes);
+      const std::uint32_t starts = unequal<kLanes>(counter, moved_down<kLanes, kLanes - 1>(none, counter));
+      const Lanes begin = set_bits<kLanes>(starts);
+      store<kLanes>(out.passes, moved_down<kLanes, 1>(begin, end) - begin);
+      store<kLanes>(out.counter, picked<kLanes>(counter, begin));
+      const int n = __builtin_popcount(starts);
+      out.counter += n, out.passes += n;
+    } else {
+      store<kLanes>(out.passes, all<kLanes>(1));
+      store<kLanes>(out.counter, counter);
+      out.counter += kLanes, out.passes += kLanes;
+    }
   }
 
   GVOM_INLINE void leave(Lanes column, Lanes outside, Crossings& out) {
     Lanes height = (height_ & ~outside) | (kNoRay & outside);
-    if constexpr (kLanes > 8) lower<8>(column, height);
-    if constexpr (kLanes > 4) lower<4>(column, height);
-    lower<2>(column, height);
-    lower<1>(column, height);
-    const std::uint32_t starts =
-        unequal<kLanes>(column, moved_down<kLanes, kLanes - 1>(all<kLanes>(-1), column)) &
-        less<kLanes>(height, all<kLanes>(kNoRay));
-    const Lanes begin = set_bits<kLanes>(starts);
-    store<kLanes>(out.column, picked<kLanes>(column, begin));
-    store<kLanes>(out.height, picked<kLanes>(height, begin));
-    const int n = __builtin_popcount(starts);
-    out.column += n;
-    out.height += n;
     height_ += step_height_;
     enters_ = Lanes{};
+    if constexpr (kJoinsNeighbours) {
+      if constexpr (kLanes > 8) lower<8>(column, height);
+      lower<4>(column, height);
+      lower<2>(column, height);
+      lower<1>(column, height);
+      const Lanes before = moved_down<kLanes, kLanes - 1>(all<kLanes>(-1), column);
+      const std::uint32_t starts =
+          unequal<kLanes>(column, before) & less<kLanes>(height, all<kLanes>(kNoRay));
+      const Lanes begin = set_bits<kLanes>(starts);
+      store<kLanes>(out.column, picked<kLanes>(column, begin));
+      store<kLanes>(out.height, picked<kLanes>(height, begin));
+      const int n = __builtin_popcount(starts);
+      out.column += n, out.height += n;
+    } else {
+      store<kLanes>(out.column, column & ~outside);
+      store<kLanes>(out.height, height);
+      out.column += kLanes, out.height += kLanes;
+    }
   }
 
   // To that of the lane behind that leaves the same column.
@@ -180,9 +199,8 @@ class AxisCrossings {
   }
 
   std::int32_t rows_;
-  int shift_;
   Doubles<kLanes> units_, from_b_, from_c_;
-  Lanes last_b_, last_c_, next_y_, next_z_, outside_;
+  Lanes shift_, last_b_, last_c_, next_y_, next_z_, outside_;
   Doubles<kLanes> slope_b_, slope_c_, to_face_;
   Lanes step_b_, step_c_, step_height_, step_;
   Lanes b_, c_, own_, own_part_, height_, rest_, enters_;
