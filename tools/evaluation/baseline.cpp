@@ -74,6 +74,10 @@ void compare_figure(const FigureInfo& info, const Row& before, const Row& now, C
                  text_of(info.figure, is) + unit);
 }
 
+std::vector<Row>::const_iterator find(const std::vector<Row>& rows, const Row& wanted) {
+  return std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return r.name() == wanted.name(); });
+}
+
 }  // namespace
 
 tl::expected<Baseline, std::string> read_baseline(const std::string& path) {
@@ -105,9 +109,10 @@ tl::expected<Baseline, std::string> read_baseline(const std::string& path) {
 
 Changes compare(const Baseline& baseline, const std::vector<Row>& rows) {
   Changes changes;
+  for (const Row& before : baseline.rows)
+    changes.recordings_not_run += before.drive == kRealDrive && find(rows, before) == rows.end();
   for (const Row& row : rows) {
-    const auto before = std::find_if(baseline.rows.begin(), baseline.rows.end(),
-                                     [&](const Row& b) { return b.name() == row.name(); });
+    const auto before = find(baseline.rows, row);
     if (before == baseline.rows.end()) {
       ++changes.rows_without_baseline;
       continue;

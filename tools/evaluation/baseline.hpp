@@ -22,6 +22,7 @@ struct Changes {
   std::vector<std::string> worse;  ///< One line each: which figure of which scene, what it was, what it is.
   std::vector<std::string> better;
   int rows_without_baseline = 0;
+  int recordings_not_run = 0;  ///< Rows of recordings in the baseline alone: they may be on another machine.
 };
 
 /// Compares figures as they are printed. A figure that was measured and is not any more is worse. Rows of the

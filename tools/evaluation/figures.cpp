@@ -62,6 +62,13 @@ const std::array<FigureInfo, kFigures>& figure_table() {
       {F::coverage_30, "coverage_30", "drivable ground with a height, 30 m", "%", 1, kHigher},
       {F::sight_coverage_near, "sight_coverage_near", "the same of what is in sight, near", "%", 1, kHigher},
       {F::sight_coverage_30, "sight_coverage_30", "the same of what is in sight, 30 m", "%", 1, kHigher},
+      {F::observed_negative_near, "observed_negative_near", "NEGATIVE of all observed, near", "%", 2, kLower},
+      {F::observed_negative_30, "observed_negative_30", "NEGATIVE of all observed, 30 m", "%", 2, kLower},
+      {F::observed_negative_any, "observed_negative_any", "NEGATIVE of all observed, anywhere", "%", 2,
+       kLower},
+      {F::real_trees_found, "real_trees_found", "real trees: columns HARD or SOFT", "%", 1, kNeither},
+      {F::real_trees_hard, "real_trees_hard", "real trees: HARD of the obstacles", "%", 1, kHigher},
+      {F::real_bushes_soft, "real_bushes_soft", "real bushes: columns not HARD", "%", 1, kHigher},
   }};
   return kTable;
 }

@@ -60,8 +60,14 @@ enum class Figure : std::size_t {
   coverage_30,
   sight_coverage_near,
   sight_coverage_30,
+  observed_negative_near,
+  observed_negative_30,
+  observed_negative_any,
+  real_trees_found,
+  real_trees_hard,
+  real_bushes_soft,
 };
-inline constexpr std::size_t kFigures = static_cast<std::size_t>(Figure::sight_coverage_30) + 1;
+inline constexpr std::size_t kFigures = static_cast<std::size_t>(Figure::real_bushes_soft) + 1;
 
 enum class Better { lower, higher, neither };
 
@@ -94,11 +100,13 @@ class Figures {
 /// As it is printed: rounded to the figure's digits, "-" for NaN.
 std::string text_of(Figure figure, double value);
 
+inline constexpr const char* kRealDrive = "real";
+
 /// One line of the table.
 struct Row {
   std::string scene;
   std::string sensor;
-  std::string drive;  ///< "trail" or "fast".
+  std::string drive;  ///< "trail" or "fast"; of a recording `kRealDrive`.
   Figures figures;
 
   [[nodiscard]] std::string name() const { return scene + " " + sensor + " " + drive; }

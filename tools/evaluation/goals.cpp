@@ -55,6 +55,17 @@ const std::vector<Goal>& goals() {
   return kGoals;
 }
 
+const std::vector<Goal>& real_goals() {
+  static const std::vector<Goal> kGoals = {
+      {"RELLIS, both lidars: tree columns HARD (%)", Figure::real_trees_hard, "rellis", "both", 70.0},
+      {"RELLIS, both lidars: bushes not HARD (%)", Figure::real_bushes_soft, "rellis", "both", 95.0},
+      {"KITTI: NEGATIVE of all observed, 30 m (%)", Figure::observed_negative_30, "kitti", "", 0.5},
+      {"KITTI: HARD on the car's way (%)", Figure::hard_any, "kitti", "", 0.0},
+      {"KITTI: STEEP on the car's way (%)", Figure::steep_any, "kitti", "", 0.0},
+  };
+  return kGoals;
+}
+
 const Row* worst_row(const Goal& goal, const std::vector<Row>& rows, const std::string& drive) {
   const Row* worst = nullptr;
   for (const Row& row : rows) {

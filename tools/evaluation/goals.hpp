@@ -18,6 +18,8 @@ struct Goal {
 };
 
 const std::vector<Goal>& goals();
+/// Of real recordings.
+const std::vector<Goal>& real_goals();
 
 /// The row in which a goal's figure is worst among those of one drive; null if none has it.
 const Row* worst_row(const Goal& goal, const std::vector<Row>& rows, const std::string& drive);

@@ -21,12 +21,6 @@ bool holds_walker(const SceneFacts& facts, const Frame& frame, const Eigen::Vect
   });
 }
 
-void GroundJudge::ByRange::count(double ahead_m, bool hit) {
-  any.count(hit);
-  if (ahead_m <= kFar_m) far.count(hit);
-  if (ahead_m <= kNear_m) near.count(hit);
-}
-
 void GroundJudge::add(const Frame& frame, const Sight& sight) {
   const Truth& truth = facts_.truth;
   const bool asks_sight = frames_++ % kFramesPerSight == 0;
@@ -78,7 +72,7 @@ void GroundJudge::judge_height(const Column& column) {
 }
 
 void GroundJudge::fill(Figures& figures) const {
-  const auto put = [&](const ByRange& shares, Figure near, Figure far, Figure any) {
+  const auto put = [&](const ShareByRange& shares, Figure near, Figure far, Figure any) {
     figures[near] = shares.near.percent();
     figures[far] = shares.far.percent();
     figures[any] = shares.any.percent();

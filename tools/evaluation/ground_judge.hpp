@@ -20,11 +20,6 @@ class GroundJudge {
   void fill(Figures& figures) const;
 
  private:
-  /// Near, to 30 m, anywhere.
-  struct ByRange {
-    Share near, far, any;
-    void count(double ahead_m, bool hit);
-  };
   struct HeightErrors {
     Spread bare_near, bare, vegetation, all;
   };
@@ -41,7 +36,7 @@ class GroundJudge {
   void judge_coverage_in_sight(const Frame& frame, const Sight& sight, const Column& column);
 
   const SceneFacts& facts_;
-  ByRange negative_, hard_, steep_, lethal_;
+  ShareByRange negative_, hard_, steep_, lethal_;
   Share lethal_found_, grass_soft_, grass_hard_;
   Share coverage_near_, coverage_far_, sight_near_, sight_far_;
   HeightErrors errors_;

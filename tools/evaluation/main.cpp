@@ -5,6 +5,7 @@
 #include "services/common/exit_code.hpp"
 #include "tools/evaluation/baseline.hpp"
 #include "tools/evaluation/options.hpp"
+#include "tools/evaluation/recording_run.hpp"
 #include "tools/evaluation/report.hpp"
 
 namespace {
@@ -33,12 +34,27 @@ int compare_with(const Baseline& baseline, const std::vector<Row>& rows) {
   const Changes changes = compare(baseline, rows);
   for (const std::string& line : changes.better) std::fprintf(stderr, "better: %s\n", line.c_str());
   for (const std::string& line : changes.worse) std::fprintf(stderr, "WORSE: %s\n", line.c_str());
+  if (changes.recordings_not_run > 0)
+    std::fprintf(stderr,
+                 "SKIPPED: %d rows of the baseline are of recordings that are not here (--recordings DIR)\n",
+                 changes.recordings_not_run);
   std::fprintf(stderr, "against the baseline: %zu figures better, %zu worse", changes.better.size(),
                changes.worse.size());
   if (changes.rows_without_baseline > 0)
     std::fprintf(stderr, "; %d rows are not in it", changes.rows_without_baseline);
   std::fprintf(stderr, "\n");
   return changes.worse.empty() ? 0 : 1;
+}
+
+/// Scenes, then recordings.
+tl::expected<std::vector<Row>, std::string> run_all(const Plan& plan) {
+  auto rows = run(plan, print_progress);
+  if (!rows) return rows;
+  const auto real =
+      run_recordings(plan, [](const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); });
+  if (!real) return real;
+  rows->insert(rows->end(), real->begin(), real->end());
+  return rows;
 }
 
 int evaluate(const Options& options) {
@@ -53,7 +69,7 @@ int evaluate(const Options& options) {
       return fail(ExitCode::usage, options.baseline + " is of other settings: " + baseline->settings +
                                        "; these are: " + settings);
   }
-  const auto rows = run(*plan, print_progress);
+  const auto rows = run_all(*plan);
   if (!rows) return fail(ExitCode::unavailable, rows.error());
   std::fputs((options.json ? to_json(*rows, settings) : table(*rows)).c_str(), stdout);
   for (const std::string& path : {options.csv, options.write_baseline})

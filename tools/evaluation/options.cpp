@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 
 #include "services/common/config_file.hpp"
 
@@ -43,6 +44,8 @@ tl::expected<std::vector<std::string>, std::string> find_scenes(const Options& o
   std::vector<std::string> known;
   for (const sim::SceneEntry& entry : sim::scene_library()) known.emplace_back(entry.name);
   if (options.scenes.empty() && !options.quick) return known;
+  if (!options.recordings.empty() && options.scenes == std::vector<std::string>{"none"})
+    return std::vector<std::string>{};
   const std::vector<std::string>& wanted = options.scenes.empty() ? kQuickScenes : options.scenes;
   for (const std::string& name : wanted) {
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
@@ -87,6 +90,8 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--write-baseline", options.write_baseline, "file for the figures to compare with later");
   app.add_option("--pictures", options.pictures, "directory for a picture of each scene");
   app.add_option("--cache", options.cache, "directory that keeps simulated sweeps for the next run");
+  app.add_option("--recordings", options.recordings,
+                 "directory of real recordings to map as well; with --scenes none alone");
   app.add_option("--vehicle", options.vehicle, "vehicle file with mapping parameters and the lidars' places");
   app.add_option("--set", options.sets, "KEY=VALUE over the vehicle file")->type_name("KEY=VALUE");
 }
@@ -101,6 +106,8 @@ tl::expected<Plan, std::string> make_plan(const Options& options) {
   if (!scenes) return tl::unexpected(scenes.error());
   const auto vehicle = make_vehicle(options);
   if (!vehicle) return tl::unexpected(vehicle.error());
+  if (!options.recordings.empty() && !std::filesystem::is_directory(options.recordings))
+    return tl::unexpected("--recordings " + options.recordings + ": is not a directory");
   Plan plan;
   plan.scenes = *scenes;
   plan.drives = make_drives(options, *sensors);
@@ -110,6 +117,7 @@ tl::expected<Plan, std::string> make_plan(const Options& options) {
   plan.threads = options.threads;
   plan.cache_directory = options.cache;
   plan.pictures_directory = options.pictures;
+  plan.recordings_directory = options.recordings;
   return plan;
 }
 

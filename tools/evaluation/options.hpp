@@ -26,6 +26,7 @@ struct Options {
   std::string write_baseline;
   std::string pictures;
   std::string cache;
+  std::string recordings;
   std::string vehicle;
   std::vector<std::string> sets;
 };

@@ -3,22 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tools/snapshot/draw.hpp"
+#include "tools/evaluation/picture_panels.hpp"
 
 namespace gvom::evaluation {
 namespace {
 
 using snapshot::Canvas;
-using snapshot::Point;
 using snapshot::Rgb;
 using snapshot::Swatch;
 
-constexpr int kHalf = 90;  // columns shown to either side of the vehicle
-constexpr int kShown = 2 * kHalf;
-constexpr int kZoom = 4;
-constexpr int kMargin = 24;
-constexpr int kTop = 84;
-constexpr int kLegend = 64;
 constexpr double kWanted_m = 8.0;  // before a hole
 
 constexpr Rgb kHoleColour{196, 20, 40};
@@ -41,12 +34,6 @@ const std::vector<Swatch> kTruthLegend = {
     {kOverhangColour, "crown"},  {kBushColour, "bush"},          {kGrassColour, "grass"},
     {kRockColour, "rock"},       {kBuiltColour, "wall, car"},    {kMirrorColour, "water"},
     {kDarkColour, "no returns"}, {kWalkerColour, "walker's way"}};
-const std::vector<Swatch> kMapLegend = {{snapshot::kHardColour, "HARD"},
-                                        {snapshot::kSoftColour, "SOFT"},
-                                        {snapshot::kNegativeColour, "NEGATIVE"},
-                                        {snapshot::kSteepColour, "STEEP"},
-                                        {snapshot::kSeenThrough, "no ground found"},
-                                        {snapshot::kUnknown, "not observed"}};
 const std::vector<Swatch> kErrorLegend = {
     {snapshot::kHardColour, "false HARD"},   {snapshot::kNegativeColour, "false NEGATIVE"},
     {snapshot::kSteepColour, "false STEEP"}, {kMissedColour, "lethal, missed"},
@@ -59,36 +46,12 @@ struct Place {
   std::int64_t map;
 };
 
-class Window {
- public:
-  Window(const SceneFacts& facts, const Frame& frame) : truth_(facts.truth), frame_(frame) {
-    const double edge_m = truth_.resolution_m;
-    for (int axis = 0; axis < 2; ++axis)
-      first_[axis] = static_cast<std::int64_t>(std::floor(frame.base_m[axis] / edge_m)) - kHalf;
-  }
-
-  [[nodiscard]] Place place(int x, int y) const {
-    return {inside(x, y, truth_.origin[0], truth_.origin[1], truth_.size_x, truth_.size_y),
-            inside(x, y, frame_.origin[0], frame_.origin[1], frame_.size, frame_.size)};
-  }
-  /// Pixels of a point, in a panel whose left edge is at `left`.
-  [[nodiscard]] Point pixel(const Eigen::Vector2d& point_m, int left) const {
-    const double x = point_m.x() / truth_.resolution_m - static_cast<double>(first_[0]);
-    const double y = point_m.y() / truth_.resolution_m - static_cast<double>(first_[1]);
-    return {left + x * kZoom, kTop + (kShown - y) * kZoom};
-  }
-
- private:
-  [[nodiscard]] std::int64_t inside(int x, int y, std::int64_t origin_x, std::int64_t origin_y, int size_x,
-                                    int size_y) const {
-    const std::int64_t at_x = first_[0] + x - origin_x, at_y = first_[1] + y - origin_y;
-    return at_x < 0 || at_y < 0 || at_x >= size_x || at_y >= size_y ? -1 : at_y * size_x + at_x;
-  }
-
-  const Truth& truth_;
-  const Frame& frame_;
-  std::int64_t first_[2] = {};
-};
+Place place_of(const Truth& truth, const PanelWindow& window, int x, int y) {
+  const auto [voxel_x, voxel_y] = window.voxel(x, y);
+  const std::int64_t at_x = voxel_x - truth.origin[0], at_y = voxel_y - truth.origin[1];
+  const bool outside = at_x < 0 || at_y < 0 || at_x >= truth.size_x || at_y >= truth.size_y;
+  return {outside ? -1 : at_y * truth.size_x + at_x, window.in_frame(x, y)};
+}
 
 /// Light and shadow of the slope between neighbouring columns.
 double relief(const std::vector<float>& height, std::int64_t at, int size_x, double edge_m) {
@@ -96,13 +59,6 @@ double relief(const std::vector<float>& height, std::int64_t at, int size_x, dou
   const double slope_x = (height[at] - height[at - 1]) / edge_m;
   const double slope_y = (height[at] - height[at - size_x]) / edge_m;
   return std::clamp(1.0 + 0.6 * (slope_x - slope_y), 0.5, 1.25);
-}
-
-Rgb shade(Rgb colour, double light) {
-  const auto part = [light](std::uint8_t value) {
-    return static_cast<std::uint8_t>(std::lround(std::clamp(value * light, 0.0, 255.0)));
-  };
-  return {part(colour.r), part(colour.g), part(colour.b)};
 }
 
 Rgb class_colour(ObjectClass what) {
@@ -144,20 +100,6 @@ Rgb truth_colour(const Truth& truth, const Place& place) {
                relief(truth.ground_lowest, place.truth, truth.size_x, truth.resolution_m));
 }
 
-Rgb map_colour(const Truth& truth, const Frame& frame, const Place& place) {
-  if (place.map < 0 || !is_observed(frame.visibility[place.map])) return snapshot::kUnknown;
-  const std::uint8_t flags = frame.flags[place.map];
-  if (flags & kHard) return snapshot::kHardColour;
-  if (flags & kNegative) return snapshot::kNegativeColour;
-  if (flags & kSteep) return snapshot::kSteepColour;
-  if (flags & kSoft) return snapshot::kSoftColour;
-  if (std::isnan(frame.height[place.map])) return snapshot::kSeenThrough;
-  if (place.map < frame.size || place.map % frame.size == 0) return snapshot::kPlainGround;
-  const double slope_x = (frame.height[place.map] - frame.height[place.map - 1]) / truth.resolution_m;
-  return std::isnan(slope_x) ? snapshot::kPlainGround
-                             : shade(snapshot::kPlainGround, std::clamp(1.0 + 0.6 * slope_x, 0.5, 1.25));
-}
-
 Rgb error_colour(const SceneFacts& facts, const Sight& sight, const Frame& frame, const Place& place) {
   const Truth& truth = facts.truth;
   if (place.map < 0 || place.truth < 0 || !is_observed(frame.visibility[place.map]))
@@ -172,35 +114,6 @@ Rgb error_colour(const SceneFacts& facts, const Sight& sight, const Frame& frame
                : snapshot::kNegativeColour;
   if (flags & kSteep) return snapshot::kSteepColour;
   return kRightColour;
-}
-
-template <typename ColourOf>
-void draw_columns(Canvas& canvas, int left, const Window& window, ColourOf colour_of) {
-  std::vector<Rgb> colours;
-  for (int y = 0; y < kShown; ++y)
-    for (int x = 0; x < kShown; ++x) colours.push_back(colour_of(window.place(x, y)));
-  canvas.blocks(left, kTop, kZoom, kShown, colours);
-  canvas.outline({static_cast<double>(left), kTop}, kShown * kZoom, kShown * kZoom, snapshot::kFaintInk);
-}
-
-void draw_vehicle(Canvas& canvas, int left, const Window& window, const Frame& frame) {
-  const Eigen::Vector2d side(-frame.forward.y(), frame.forward.x());
-  const auto at = [&](double along_m, double beside_m) {
-    return window.pixel(frame.base_m + along_m * frame.forward + beside_m * side, left);
-  };
-  canvas.polygon({at(1.4, 0.0), at(-0.8, 0.8), at(-0.8, -0.8)}, snapshot::kPaper, snapshot::kInk);
-}
-
-void draw_legend(Canvas& canvas, int left, const std::vector<Swatch>& swatches) {
-  double x = left, y = kTop + kShown * kZoom + 26;
-  for (const Swatch& swatch : swatches) {
-    if (x > left + kShown * kZoom - 140) {
-      x = left;
-      y += 22;
-    }
-    canvas.rectangle({x, y - 11}, 14, 14, swatch.colour);
-    x = canvas.text({x + 20, y}, swatch.label, {13, snapshot::kInk}) + 18;
-  }
 }
 
 }  // namespace
@@ -223,22 +136,16 @@ void InstructiveFrame::see(const Frame& frame) {
 }
 
 Canvas draw_scene(const SceneFacts& facts, const Sight& sight, const Frame& frame, const std::string& title) {
-  constexpr int kPanel = kShown * kZoom + kMargin;
-  Canvas canvas(kMargin + 3 * kPanel, kTop + kShown * kZoom + kLegend, snapshot::kPaper);
-  canvas.text({kMargin, 34}, title, {22, snapshot::kInk, true});
-  const Window window(facts, frame);
   const Truth& truth = facts.truth;
-  const auto panel = [&](int number, const char* name, const std::vector<Swatch>& legend, auto colour_of) {
-    const int left = kMargin + number * kPanel;
-    canvas.text({static_cast<double>(left), kTop - 14}, name, {16, snapshot::kInk, true});
-    draw_columns(canvas, left, window, colour_of);
-    draw_vehicle(canvas, left, window, frame);
-    draw_legend(canvas, left, legend);
-  };
-  panel(0, "what is there", kTruthLegend, [&](const Place& p) { return truth_colour(truth, p); });
-  panel(1, "what the map says", kMapLegend, [&](const Place& p) { return map_colour(truth, frame, p); });
-  panel(2, "where it is wrong", kErrorLegend,
-        [&](const Place& p) { return error_colour(facts, sight, frame, p); });
+  Canvas canvas = make_canvas(3, title);
+  const PanelWindow window(frame, truth.resolution_m);
+  draw_panel(canvas, 0, {"what is there", kTruthLegend}, window,
+             paint_columns([&](int x, int y) { return truth_colour(truth, place_of(truth, window, x, y)); }));
+  draw_panel(canvas, 1, {"what the map says", kMapLegend}, window,
+             paint_columns([&](int x, int y) { return map_colour(window, x, y); }));
+  draw_panel(canvas, 2, {"where it is wrong", kErrorLegend}, window, paint_columns([&](int x, int y) {
+               return error_colour(facts, sight, frame, place_of(truth, window, x, y));
+             }));
   return canvas;
 }
 

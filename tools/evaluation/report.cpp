@@ -51,6 +51,32 @@ constexpr TableColumn kColumns[] = {
     {"", "30 m%", Figure::sight_coverage_30},
 };
 
+constexpr TableColumn kRealColumns[] = {
+    {"NEGATIVE", "near%", Figure::observed_negative_near},
+    {"of all", "30 m%", Figure::observed_negative_30},
+    {"", "any%", Figure::observed_negative_any},
+    {"NEGATIVE", "near%", Figure::negative_near},
+    {"", "30 m%", Figure::negative_30},
+    {"", "any%", Figure::negative_any},
+    {"HARD", "near%", Figure::hard_near},
+    {"", "30 m%", Figure::hard_30},
+    {"", "any%", Figure::hard_any},
+    {"STEEP", "near%", Figure::steep_near},
+    {"", "30 m%", Figure::steep_30},
+    {"", "any%", Figure::steep_any},
+    {"trees", "found%", Figure::real_trees_found},
+    {"", "HARD%", Figure::real_trees_hard},
+    {"bushes", "soft%", Figure::real_bushes_soft},
+};
+
+/// Those of recordings, or those of scenes.
+std::vector<Row> select(const std::vector<Row>& rows, bool real) {
+  std::vector<Row> selected;
+  for (const Row& row : rows)
+    if ((row.drive == kRealDrive) == real) selected.push_back(row);
+  return selected;
+}
+
 template <typename... Values>
 void add(std::string& text, const char* format, Values... values) {
   char line[256];
@@ -64,17 +90,18 @@ int scene_width(const std::vector<Row>& rows) {
   return static_cast<int>(width);
 }
 
-std::string rows_table(const std::vector<Row>& rows) {
+template <std::size_t kCount>
+std::string rows_table(const std::vector<Row>& rows, const TableColumn (&columns)[kCount]) {
   const int width = scene_width(rows);
   std::string text;
   add(text, "%-*s %-7s %-5s", width, "", "", "");
-  for (const TableColumn& column : kColumns) add(text, column.above[0] ? " %8s" : " %6s", column.above);
+  for (const TableColumn& column : columns) add(text, column.above[0] ? " %8s" : " %6s", column.above);
   add(text, "\n%-*s %-7s %-5s", width, "scene", "sensor", "drive");
-  for (const TableColumn& column : kColumns) add(text, column.above[0] ? " %8s" : " %6s", column.below);
+  for (const TableColumn& column : columns) add(text, column.above[0] ? " %8s" : " %6s", column.below);
   text += "\n";
   for (const Row& row : rows) {
     add(text, "%-*s %-7s %-5s", width, row.scene.c_str(), row.sensor.c_str(), row.drive.c_str());
-    for (const TableColumn& column : kColumns)
+    for (const TableColumn& column : columns)
       add(text, column.above[0] ? " %8s" : " %6s",
           text_of(column.figure, row.figures[column.figure]).c_str());
     text += "\n";
@@ -105,6 +132,18 @@ std::string goals_table(const std::vector<Row>& rows) {
   return text;
 }
 
+std::string real_goals_table(const std::vector<Row>& rows) {
+  std::string text;
+  add(text, "%-44s %7s     worst in\n", "goal (* missed)", "");
+  for (const Goal& goal : real_goals()) {
+    add(text, "%-44s %7g", goal.title, goal.value);
+    add_worst(text, goal, worst_row(goal, rows, kRealDrive));
+    text.erase(text.find_last_not_of(' ') + 1);
+    text += "\n";
+  }
+  return text;
+}
+
 /// The number that is printed.
 ordered_json number(Figure figure, double value) {
   if (!std::isfinite(value)) return nullptr;
@@ -113,7 +152,7 @@ ordered_json number(Figure figure, double value) {
 
 ordered_json describe_goal(const Goal& goal, const std::vector<Row>& rows) {
   ordered_json described{{"title", goal.title}, {"figure", info_of(goal.figure).key}, {"goal", goal.value}};
-  for (const char* drive : {"trail", "fast"}) {
+  for (const char* drive : {"trail", "fast", kRealDrive}) {
     const Row* worst = worst_row(goal, rows, drive);
     if (worst == nullptr) continue;
     const double value = worst->figures[goal.figure];
@@ -128,7 +167,12 @@ ordered_json describe_goal(const Goal& goal, const std::vector<Row>& rows) {
 }  // namespace
 
 std::string table(const std::vector<Row>& rows) {
-  return rows_table(rows) + "\n" + goals_table(rows);
+  const std::vector<Row> scenes = select(rows, false), recordings = select(rows, true);
+  std::string text;
+  if (!scenes.empty()) text += rows_table(scenes, kColumns) + "\n" + goals_table(scenes);
+  if (!scenes.empty() && !recordings.empty()) text += "\n";
+  if (!recordings.empty()) text += rows_table(recordings, kRealColumns) + "\n" + real_goals_table(recordings);
+  return text;
 }
 
 std::string to_csv(const std::vector<Row>& rows, const std::string& settings) {
@@ -155,7 +199,9 @@ std::string to_json(const std::vector<Row>& rows, const std::string& settings) {
       described[info.key] = number(info.figure, row.figures[info.figure]);
     json["rows"].push_back(described);
   }
-  for (const Goal& goal : goals()) json["goals"].push_back(describe_goal(goal, rows));
+  const std::vector<Row> scenes = select(rows, false), recordings = select(rows, true);
+  for (const Goal& goal : goals()) json["goals"].push_back(describe_goal(goal, scenes));
+  for (const Goal& goal : real_goals()) json["goals"].push_back(describe_goal(goal, recordings));
   return json.dump(1) + "\n";
 }
 

@@ -8,7 +8,8 @@
 
 namespace gvom::evaluation {
 
-/// One line a row with the figures that say most, then the goals, each with its worst scene.
+/// One line a row with the figures that say most, then the goals, each with its worst scene; then the same of
+/// recordings.
 std::string table(const std::vector<Row>& rows);
 
 /// All figures, one line a row under a line of keys, empty where there was nothing to measure; before them a

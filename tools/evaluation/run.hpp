@@ -27,9 +27,10 @@ struct Plan {
   Vehicle vehicle;
   std::uint64_t seed = 1;
   int frames = 40;
-  int threads = 2;                 ///< Scenes at a time; they do not change a figure.
-  std::string cache_directory;     ///< Empty: none.
-  std::string pictures_directory;  ///< Empty: none.
+  int threads = 2;                   ///< Scenes at a time; they do not change a figure.
+  std::string cache_directory;       ///< Empty: none.
+  std::string pictures_directory;    ///< Empty: none.
+  std::string recordings_directory;  ///< Empty: none.
 };
 
 /// Called when a scene is done; from one thread at a time.

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "tools/evaluation/frame.hpp"
+
 namespace gvom::evaluation {
 
 struct Share {
@@ -16,6 +18,17 @@ struct Share {
   }
   /// NaN where nothing was counted.
   [[nodiscard]] double percent() const;
+};
+
+/// Near, to 30 m, anywhere.
+struct ShareByRange {
+  Share near, far, any;
+
+  void count(double ahead_m, bool hit) {
+    any.count(hit);
+    if (ahead_m <= kFar_m) far.count(hit);
+    if (ahead_m <= kNear_m) near.count(hit);
+  }
 };
 
 /// Values of which the mean and quantiles are asked.
