@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "tests/tools/evaluation_fixture.hpp"
+#include "tools/sim/scene_library.hpp"
 
 using namespace gvom;
 using namespace gvom::evaluation;
@@ -51,6 +52,20 @@ TEST_CASE("a hole beyond the end of the path counts up to 6 m") {
   scene.dig(43.0, 43.9, -12.0, 12.0, 1.0);
   REQUIRE(scene.facts().holes.size() == 1);
   CHECK(scene.facts().holes[0].rim_driven_m == Approx(42.95).margin(0.06));
+}
+
+TEST_CASE("the scene of potholes has one that counts, whatever the seed") {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    sim::SceneParameters parameters;
+    parameters.seed = seed;
+    const sim::WorldData world = sim::build_scene("potholes", parameters).value();
+    std::vector<Eigen::Vector2d> path_m;
+    for (int i = 0; i <= 600; ++i) path_m.emplace_back(0.1 * i, 0.0);
+    const std::vector<Hole> holes = find_holes(world.ground, path_m);
+    REQUIRE(holes.size() == 1);
+    CHECK(holes[0].depth_m == Approx(0.6).margin(0.001));
+    CHECK(holes[0].rim_driven_m == Approx(39.45).margin(0.11));  // its side runs over 0.2 m
+  }
 }
 
 TEST_CASE("a pothole has only the lanes that run into it") {

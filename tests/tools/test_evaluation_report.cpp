@@ -102,6 +102,8 @@ TEST_CASE("a goal is judged by its worst scene, of those that it is about") {
   CHECK(worst_row(negative, rows, "fast")->scene == "flat");
   CHECK(reaches(negative, 0.304));  // printed as 0.30
   CHECK_FALSE(reaches(negative, 0.306));
+  const Goal two_left_out{"", Figure::negative_near, "-pud,hil", "", 0.3};
+  CHECK(worst_row(two_left_out, rows, "trail")->scene == "flat");
   const Goal trunks{"", Figure::trunks_near, "forest,hil", "", 99.0};
   CHECK(worst_row(trunks, rows, "trail")->scene == "hills");
   CHECK_FALSE(reaches(trunks, 98.7));

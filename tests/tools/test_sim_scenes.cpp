@@ -60,11 +60,11 @@ int count_of(const WorldData& world, Surface surface) {
 }
 
 bool is_seeded(const std::string& name) {
-  static const std::set<std::string> formulas{"flat",       "ramp-up",     "ramp-down",       "sidehill",
-                                              "crest",      "bank-down",   "bank-up",         "cliff",
-                                              "ditch-2m-a", "ditch-2m-b",  "ditch-2m-c",      "ditch-1m-a",
-                                              "ditch-1m-b", "ditch-1m-c",  "ditch-oblique",   "wall",
-                                              "walker",     "ditch-slope", "ditch-slope-down"};
+  static const std::set<std::string> formulas{"flat",       "ramp-up",    "ramp-down",   "ramp-sharp",
+                                              "sidehill",   "crest",      "bank-down",   "bank-up",
+                                              "cliff",      "ditch-2m-a", "ditch-2m-b",  "ditch-2m-c",
+                                              "ditch-1m-a", "ditch-1m-b", "ditch-1m-c",  "ditch-oblique",
+                                              "wall",       "walker",     "ditch-slope", "ditch-slope-down"};
   return formulas.count(name) == 0;
 }
 
@@ -118,6 +118,30 @@ TEST_CASE("the path is nowhere steeper than 27 degrees but at its holes") {
     INFO(entry.name);
     CHECK(ScenePath(scene(entry.name)).steepest_deg() < 27.0);
   }
+}
+
+TEST_CASE("ramps and the crest are rounded with 8 m, but for one that has a sharp edge") {
+  constexpr double kNode = 0.1;
+  struct Bend {
+    double per_m = 0.0;
+    double x_m = 0.0;
+  };
+  const auto sharpest = [](const std::string& name) {
+    std::vector<Surface> surface;
+    const std::vector<float> height = heights_ahead(scene(name), surface);
+    Bend bend;
+    for (std::size_t i = 4; i + 4 < height.size(); ++i) {  // over 0.8 m: heights are whole 1/4096 m
+      const double bent = std::abs(height[i - 4] - 2.0 * height[i] + height[i + 4]) / (16 * kNode * kNode);
+      if (bent > bend.per_m) bend = {bent, kNode * static_cast<double>(i)};
+    }
+    return bend;
+  };
+  for (const char* name : {"ramp-up", "ramp-down", "crest"}) {
+    INFO(name);
+    CHECK(1.0 / sharpest(name).per_m == Approx(8.0).margin(0.2));
+  }
+  CHECK(sharpest("ramp-sharp").x_m == Approx(15.0).margin(0.11));
+  CHECK(sharpest("ramp-sharp").per_m * 0.4 == Approx(std::tan(15.0 * 3.14159265 / 180.0)).margin(0.04));
 }
 
 TEST_CASE("hills are steep, and can be driven everywhere") {

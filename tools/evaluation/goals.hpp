@@ -12,7 +12,7 @@ namespace gvom::evaluation {
 struct Goal {
   const char* title;
   Figure figure;
-  const char* scenes;  ///< Beginnings of their names, with commas; empty: all. "-puddles": all but this one.
+  const char* scenes;  ///< Beginnings of their names, with commas; empty: all; "-a,b": all but these.
   const char* sensor;  ///< Empty: all.
   double value;
 };

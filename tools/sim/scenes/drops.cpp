@@ -14,6 +14,9 @@ constexpr double kBelowBank = 2.0;
 constexpr double kCliffHeight = 5.0;
 constexpr double kCliffRun = 0.2;
 constexpr double kBelowCliff = 3.0;
+constexpr double kShallowPothole = 0.45;  // on the path but for one
+constexpr double kDeepPothole = 0.6;
+constexpr double kDeepPotholeX = 40.0;
 
 /// Ground that goes on `drop_m` lower behind a face from `kEnd` on; a hole to `below_m` behind the edge.
 struct Drop {
@@ -55,8 +58,10 @@ WorldData make_potholes(const SceneParameters& parameters) {
     const bool on_path = potholes.size() % 2 == 0;
     const double side = random.between(0.0, 1.0) < 0.5 ? -1.0 : 1.0;
     const double y = on_path ? random.between(-0.8, 0.8) : side * random.between(2.0, 6.0);
+    const double deepest = on_path ? kShallowPothole : kDeepPothole;
     potholes.push_back(
-        {{x + random.between(-1.0, 1.0), y}, random.between(0.4, 0.6), random.between(0.3, 0.6)});
+        {{x + random.between(-1.0, 1.0), y}, random.between(0.4, 0.6), random.between(0.3, deepest)});
+    if (x == kDeepPotholeX) potholes.back() = {{x, 0.0}, 0.6, kDeepPothole};
   }
   return paint_world("potholes", straight_course(parameters.length_m), [&](double x, double y) {
     double depth = 0.0;

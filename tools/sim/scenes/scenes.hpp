@@ -10,6 +10,7 @@ WorldData make_flat(const SceneParameters& parameters);
 WorldData make_hills(const SceneParameters& parameters);
 WorldData make_ramp_up(const SceneParameters& parameters);
 WorldData make_ramp_down(const SceneParameters& parameters);
+WorldData make_ramp_sharp(const SceneParameters& parameters);
 WorldData make_sidehill(const SceneParameters& parameters);
 WorldData make_crest(const SceneParameters& parameters);
 WorldData make_bumps(const SceneParameters& parameters);

@@ -11,19 +11,22 @@ namespace {
 constexpr double kTan14 = 0.24932800284318;  // degrees
 constexpr double kTan15 = 0.26794919243112;
 
-constexpr double kRampFoot = 15.0;
+constexpr double kRampBegin = 15.0;
 constexpr double kRampLength = 20.0;  // with its rounded ends
-constexpr double kRounding = 1.0;
+constexpr double kRadius = 8.0;       // of what is rounded, as nature or a road builder leaves it
+constexpr double kRampRounding = kRadius * kTan15;
+constexpr double kSharp = 0.1;  // one node
 
 constexpr double kCrestX = 20.0;
 constexpr double kCrestHalf = 12.0;
-constexpr double kCrestRounding = 1.5;
+constexpr double kCrestRounding = kRadius * kTan14;
 
-WorldData make_ramp(const char* name, const SceneParameters& parameters, double slope) {
-  const SlopeProfile profile({{kRampFoot, 0.0},
-                              {kRampFoot + kRounding, slope},
-                              {kRampFoot + kRampLength - kRounding, slope},
-                              {kRampFoot + kRampLength, 0.0}});
+/// @param edge_m how long the first of its two ends is
+WorldData make_ramp(const char* name, const SceneParameters& parameters, double slope, double edge_m) {
+  const SlopeProfile profile({{kRampBegin, 0.0},
+                              {kRampBegin + edge_m, slope},
+                              {kRampBegin + kRampLength - kRampRounding, slope},
+                              {kRampBegin + kRampLength, 0.0}});
   return paint_world(name, straight_course(parameters.length_m),
                      [&](double x, double) { return GroundPoint{profile.height_m(x)}; });
 }
@@ -56,11 +59,15 @@ WorldData make_hills(const SceneParameters& parameters) {
 }
 
 WorldData make_ramp_up(const SceneParameters& parameters) {
-  return make_ramp("ramp-up", parameters, kTan15);
+  return make_ramp("ramp-up", parameters, kTan15, kRampRounding);
 }
 
 WorldData make_ramp_down(const SceneParameters& parameters) {
-  return make_ramp("ramp-down", parameters, -kTan15);
+  return make_ramp("ramp-down", parameters, -kTan15, kRampRounding);
+}
+
+WorldData make_ramp_sharp(const SceneParameters& parameters) {
+  return make_ramp("ramp-sharp", parameters, -kTan15, kSharp);
 }
 
 WorldData make_sidehill(const SceneParameters& parameters) {
