@@ -10,7 +10,7 @@ namespace {
 constexpr std::int64_t kOutOfStep_ns = 37'100'000;  // between the lidars' first columns
 constexpr int kOdometry_hz = 100;
 constexpr int kOuster_hz = 10;
-constexpr double kBeforeRim_m = 0.5;
+constexpr double kBeforeRim_m = 3.0;  // as where a scene ends at a hole: nearer it leaves the window
 
 std::vector<sim::LidarModel> make_lidars(const Vehicle& vehicle, const DriveOptions& options) {
   std::vector<sim::LidarModel> lidars;
