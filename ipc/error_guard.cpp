@@ -11,14 +11,26 @@
 namespace gvom::ipc {
 namespace {
 
+constexpr int kExitStopped = 0;
 constexpr int kExitInternal = 70;
 
-std::mutex sink_mutex;
+std::mutex callbacks_mutex;
 
 /// Never destroyed: iceoryx reports errors until the very end of the process.
 LogSink& sink() {
   static auto* const instance = new LogSink;
   return *instance;
+}
+
+/// Likewise.
+StopAsked& stop_question() {
+  static auto* const instance = new StopAsked;
+  return *instance;
+}
+
+bool stop_was_asked() {
+  const std::lock_guard lock(callbacks_mutex);
+  return stop_question() && stop_question()();
 }
 
 thread_local bool chunk_too_large = false;
@@ -45,17 +57,19 @@ void handle(iox::Error error, const std::function<void()>& callback, iox::ErrorL
     log_line("iceoryx: " + name);
     return;
   }
-  log_line("iceoryx cannot go on: " + name + "; leaving with exit code 70");
+  const int code = stop_was_asked() ? kExitStopped : kExitInternal;
+  log_line("iceoryx cannot go on: " + name + "; leaving with exit code " + std::to_string(code));
   if (callback) callback();
-  std::_Exit(kExitInternal);
+  std::_Exit(code);
 }
 
 }  // namespace
 
-void install_error_guard(LogSink log) {
+void install_error_guard(LogSink log, StopAsked stop_asked) {
   {
-    const std::lock_guard lock(sink_mutex);
+    const std::lock_guard lock(callbacks_mutex);
     sink() = std::move(log);
+    stop_question() = std::move(stop_asked);
   }
   // Never destroyed either. Volatile: a pointer that nobody reads is not kept, and what it points to leaks.
   static iox::cxx::GenericRAII* volatile const installed =
@@ -66,13 +80,15 @@ void install_error_guard(LogSink log) {
                                                            iox::log::LogLevelOutput::kHideLogLevel);
 }
 
-void forget_log_sink() {
-  const std::lock_guard lock(sink_mutex);
+void forget_callbacks() {
+  const bool stopped = stop_was_asked();
+  const std::lock_guard lock(callbacks_mutex);
   sink() = nullptr;
+  stop_question() = [stopped] { return stopped; };
 }
 
 void log_line(const std::string& line) {
-  const std::lock_guard lock(sink_mutex);
+  const std::lock_guard lock(callbacks_mutex);
   if (sink()) {
     sink()(line);
   } else {

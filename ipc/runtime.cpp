@@ -80,7 +80,8 @@ Expected<void> check_runtime_name(const std::string& name) {
                                      "a dot, not 'roudi'"});
 }
 
-Expected<Runtime> Runtime::connect(const std::string& name, std::chrono::milliseconds timeout, LogSink log) {
+Expected<Runtime> Runtime::connect(const std::string& name, std::chrono::milliseconds timeout, LogSink log,
+                                   StopAsked stop_asked) {
   if (auto may_join = check_may_join(name, timeout); !may_join) return tl::unexpected(may_join.error());
   auto segment = segment_path();
   if (!segment) return tl::unexpected(segment.error());
@@ -88,7 +89,7 @@ Expected<Runtime> Runtime::connect(const std::string& name, std::chrono::millise
   auto doorbell = Doorbell::open();
   if (!doorbell) return tl::unexpected(doorbell.error());
   auto state = std::make_unique<State>(State{name, std::move(*segment), broker_inode, std::move(*doorbell)});
-  install_error_guard(std::move(log));
+  install_error_guard(std::move(log), std::move(stop_asked));
   iox::runtime::PoshRuntime::initRuntime(iox::RuntimeName_t(iox::cxx::TruncateToCapacity, name));
   joined = true;
   return Runtime(std::move(state));
@@ -99,7 +100,7 @@ Runtime::Runtime(Runtime&&) noexcept = default;
 Runtime& Runtime::operator=(Runtime&&) noexcept = default;
 
 Runtime::~Runtime() {
-  if (state_) forget_log_sink();
+  if (state_) forget_callbacks();
 }
 
 const std::string& Runtime::name() const {

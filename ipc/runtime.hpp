@@ -16,6 +16,9 @@ namespace gvom::ipc {
 /// Takes one line of text; may be called from any thread. Without one, lines go to stderr.
 using LogSink = std::function<void(const std::string&)>;
 
+/// True once this process was asked to stop; may be called from any thread.
+using StopAsked = std::function<bool()>;
+
 /// Longest runtime name, so that it fits Health::process.
 inline constexpr std::size_t kMaxRuntimeName = 63;
 
@@ -41,8 +44,10 @@ class Runtime {
   ///
   /// From here on the bus's own errors come to `log`; one that it cannot go on from ends the process with
   /// exit code 70 at once, without destructors (they can hang), after saying why: the supervisor restarts it.
+  /// If `stop_asked` says so it ends with 0 instead, as a process does that is stopped together with its
+  /// broker. Both must live as long as the runtime.
   static Expected<Runtime> connect(const std::string& name, std::chrono::milliseconds timeout,
-                                   LogSink log = {});
+                                   LogSink log = {}, StopAsked stop_asked = {});
 
   Runtime(Runtime&&) noexcept;
   Runtime& operator=(Runtime&&) noexcept;

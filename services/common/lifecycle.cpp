@@ -56,6 +56,18 @@ void Lifecycle::take_signals() {
   }
 }
 
+bool Lifecycle::stop_asked() const {
+  constexpr auto kTakesSignal = std::chrono::milliseconds(20);  // pending no more, and not known yet
+  const auto is_pending = [] {
+    sigset_t pending;
+    return sigpending(&pending) == 0 &&
+           (sigismember(&pending, SIGINT) == 1 || sigismember(&pending, SIGTERM) == 1);
+  };
+  if (stopping() || is_pending()) return true;
+  std::this_thread::sleep_for(kTakesSignal);
+  return stopping() || is_pending();
+}
+
 void Lifecycle::request_stop() {
   const std::lock_guard lock(mutex_);
   if (stopping_.exchange(true)) return;

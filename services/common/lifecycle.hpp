@@ -32,6 +32,10 @@ class Lifecycle {
 
   [[nodiscard]] bool stopping() const { return stopping_.load(std::memory_order_relaxed); }
 
+  /// For an end that nobody planned: also true of a signal that no thread has taken yet. Takes 20 ms to say
+  /// no.
+  [[nodiscard]] bool stop_asked() const;
+
   /// `callback` runs once, in the signal thread, when a stop is asked for (at once if it was already): wakes
   /// what the working loop waits on. Hand over an empty one before what it touches goes away; when
   /// on_stop returns, the old one is not running.

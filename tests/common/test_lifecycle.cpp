@@ -54,6 +54,18 @@ TEST_CASE("a signal wakes a sleep, runs the callback once and is seen") {
   }
 }
 
+TEST_CASE("a signal is known to have come from the moment at which it was sent") {
+  for (int i = 0; i < 200; ++i) {
+    Lifecycle lifecycle;
+    kill(getpid(), i % 2 == 0 ? SIGTERM : SIGINT);
+    CHECK(lifecycle.stop_asked());
+    lifecycle.sleep_until(steady_clock::now() +
+                          20s);  // else it is still pending when nobody takes it any more
+  }
+  const Lifecycle lifecycle;
+  CHECK_FALSE(lifecycle.stop_asked());
+}
+
 TEST_CASE("a callback that comes after the stop runs at once") {
   Lifecycle lifecycle;
   lifecycle.request_stop();

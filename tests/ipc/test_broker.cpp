@@ -172,6 +172,25 @@ TEST_CASE("an error that the bus cannot go on from is told and ends the process 
   CHECK(told.wait_for(1));
 }
 
+TEST_CASE("who makes a publisher when the broker is gone ends with 70, or with 0 if it is to stop anyway") {
+  for (const bool to_stop : {false, true}) {
+    auto broker = std::make_unique<BrokerProcess>();
+    REQUIRE(broker->is_up());
+    Step step;
+    Child member([&] {
+      auto runtime = Runtime::connect("member", kPatience, {}, [&] { return to_stop; }).value();
+      step.reach(1);
+      EXPECT(step.wait_for(2));
+      const auto port = OutPort::open(runtime, topic_of<Odometry>());
+      EXPECT(false);  // it does not come so far
+    });
+    REQUIRE(step.wait_for(1));
+    CHECK(broker->kill() == 128 + SIGKILL);
+    step.reach(2);
+    CHECK(member.wait() == (to_stop ? 0 : 70));
+  }
+}
+
 TEST_CASE("the broker's own loop feeds the watchdog at 10 Hz") {
   const int code = exit_code_of([] {
     std::atomic<int> beats{0};

@@ -1,6 +1,9 @@
 // SIGINT and SIGTERM end each process well, whatever it does at that moment.
 #include <catch2/catch.hpp>
 
+#include <fstream>
+#include <string>
+
 #include "tests/ipc/processes.hpp"
 #include "tests/processes/recordings.hpp"
 #include "tests/tools/temporary_folder.hpp"
@@ -17,6 +20,15 @@ void check_stops(Program& program, int signal) {
   const int code = program.stop(signal, 20s);  // a picture takes its time on a busy machine
   INFO("signal " << signal << "\n" << program.output());
   CHECK(code == 0);
+}
+
+/// Whether its main has come so far that SIGTERM ends it no more by itself.
+bool takes_signals(const Program& program) {
+  std::ifstream status("/proc/" + std::to_string(program.pid()) + "/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.rfind("SigBlk:", 0) == 0)
+      return (std::stoull(line.substr(7), nullptr, 16) >> (SIGTERM - 1) & 1) != 0;
+  return false;
 }
 
 std::unique_ptr<Program> endless_replay(const Graph& graph, const char* rate) {
@@ -125,6 +137,26 @@ TEST_CASE("one signal ends who joins a broker that hangs") {
   CHECK(fusion->stop(SIGTERM) == 0);  // iceoryx itself would wait for a minute
   graph.roudi().send(SIGCONT);
   graph.stop();
+}
+
+TEST_CASE("who was asked to stop ends with 0, wherever in its start the broker's end meets it") {
+  const TemporaryFolder folder;
+  const Vehicle vehicle = simulated(folder.path(), 0.2);
+  for (int late_ms = 0; late_ms < 60; late_ms += 3) {
+    INFO("after " << late_ms << " ms");
+    Graph graph(vehicle);
+    const auto fusion = graph.start("gvom-fusion", {});
+    const auto ingest = graph.start("gvom-ingest", {"--lidar", "front"});
+    REQUIRE(eventually([&] { return takes_signals(*fusion) && takes_signals(*ingest); }));
+    std::this_thread::sleep_for(std::chrono::milliseconds(late_ms));
+    fusion->send(SIGTERM);
+    ingest->send(SIGTERM);
+    graph.roudi().kill();
+    CHECK(fusion->wait(20s) == 0);
+    INFO(fusion->output());
+    CHECK(ingest->wait(20s) == 0);
+    INFO(ingest->output());
+  }
 }
 
 TEST_CASE("one signal ends who leaves a broker that hangs, or that ends at the same moment") {

@@ -57,6 +57,7 @@ class JoinGuard {
   void check() const {
     const bool gone = ipc::management_inode() != broker_ || !ipc::broker_answers();
     if (!gone && steady_clock::now() - begin_ < kJoinPatience) return;
+    if (lifecycle_.stop_asked()) ::_exit(to_int(ExitCode::ok));
     spdlog::critical(gone ? "the broker went while this process joined it: leaving, to be started again"
                           : "the broker does not answer: leaving, to be started again");
     ::_exit(to_int(ExitCode::try_again));
@@ -99,7 +100,9 @@ tl::expected<ipc::Runtime, ExitCode> join_bus(const std::string& name, Lifecycle
   if (lifecycle.stopping()) return tl::make_unexpected(ExitCode::ok);
   auto runtime = [&] {
     const JoinGuard guard(lifecycle);
-    return ipc::Runtime::connect(name, 0ms, [](const std::string& line) { spdlog::warn("bus: {}", line); });
+    return ipc::Runtime::connect(
+        name, 0ms, [](const std::string& line) { spdlog::warn("bus: {}", line); },
+        [&lifecycle] { return lifecycle.stop_asked(); });
   }();
   if (runtime) return std::move(*runtime);
   spdlog::error("{}", runtime.error().message);
@@ -133,7 +136,7 @@ BrokerWatch::BrokerWatch(const ipc::Runtime& runtime, const Lifecycle& lifecycle
 
 void BrokerWatch::leave_if_gone() const {
   if (runtime_.broker_alive()) return;
-  if (lifecycle_.stopping()) {
+  if (lifecycle_.stop_asked()) {
     spdlog::warn("the broker is gone before this process has left");
     ::_exit(to_int(ExitCode::ok));
   }

@@ -27,7 +27,8 @@ std::chrono::milliseconds broker_patience();
 /// Waits for the broker up to `patience` (a stop ends the wait at once) and joins as `name`. Whoever looks at
 /// the unit reads meanwhile what it waits for. What goes wrong is logged; then the code to exit with, `ok`
 /// for a stop. While it joins, the process ends at once when a stop is asked for, and with 75 when the broker
-/// goes, or does not answer for 10 s: iceoryx itself would wait for it for a minute.
+/// goes, or does not answer for 10 s: iceoryx itself would wait for it for a minute. `lifecycle` outlives the
+/// runtime: it says whether an error that the bus cannot go on from comes of a stop.
 tl::expected<ipc::Runtime, ExitCode> join_bus(const std::string& name, Lifecycle& lifecycle,
                                               std::chrono::milliseconds patience = broker_patience());
 
