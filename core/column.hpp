@@ -4,9 +4,12 @@
 #include <cmath>
 #include <cstdint>
 
+#include "core/column_bits.hpp"
 #include "core/config.hpp"
 #include "core/format/layers.hpp"
 #include "core/fused_view.hpp"
+#include "core/ground.hpp"
+#include "core/negative.hpp"
 #include "core/window.hpp"
 
 namespace gvom {
@@ -17,151 +20,137 @@ struct ColumnParameters {
   double resolution_xy_m;
   double resolution_z_m;
   double vehicle_x_m, vehicle_y_m, vehicle_radius_m;
-  float ground_under_vehicle_m;
+  std::int32_t vehicle_column_x, vehicle_column_y;  ///< From the origin.
+  double ground_under_vehicle_m;
+  double ground_slope_x, ground_slope_y;  ///< Of the plane that the vehicle stands on, m/m.
   std::int64_t stamp_ns;
   LayersConfig layers;
   CostConfig cost;
 };
 
+/// A vehicle that leans more, by the cosine, stands on no plane that says anything: on level ground, then.
+inline constexpr double kLeastUpright = 0.5;
+
 inline ColumnParameters column_parameters(const MapperConfig& config, const LayerMoment& moment) {
   const Grid& grid = moment.grid;
   const Eigen::Vector3d& base_m = moment.T_odom_base.translation_m;
+  const Eigen::Vector3d up = moment.T_odom_base.rotation.toRotationMatrix().col(2);
+  const double per_up = up.z() > kLeastUpright ? 1 / up.z() : 0;
+  const auto column = [&](Eigen::Index axis) {
+    const auto a = static_cast<std::size_t>(axis);
+    const double voxel = std::floor(voxel_coordinate(base_m[axis], grid.resolution_m[a]));
+    return static_cast<std::int32_t>(voxel - grid.origin[a]);
+  };
   return {{grid.origin[0], grid.origin[1], grid.origin[2]},
           grid.resolution_m[0],
           grid.resolution_m[2],
           base_m.x(),
           base_m.y(),
           config.vehicle.radius_m,
-          static_cast<float>(base_m.z() - config.vehicle.base_height_m),
+          column(0),
+          column(1),
+          base_m.z() - config.vehicle.base_height_m,
+          -up.x() * per_up,
+          -up.y() * per_up,
           moment.stamp_ns,
           config.layers,
           config.cost};
 }
 
-/// What a column's own voxels say.
-struct Column {
-  float height;
-  float inferred_height;
-  float obstacle_density;
-  float clearance;
-  float last_seen;
-  std::uint8_t flags;
-  std::uint8_t visibility;
-};
+/// A voxel that was hit once in so many passes is no ground (R8): dust, a blade that moves.
+inline constexpr std::uint64_t kMostPassesPerHit = 64;
 
-/// Puts it into the layers, at index `i` of their arrays.
-GVOM_HD inline void write_column(const Column& column, const LayerArrays& out, std::int32_t i) {
-  out.height[i] = column.height;
-  out.inferred_height[i] = column.inferred_height;
-  out.obstacle_density[i] = column.obstacle_density;
-  out.clearance[i] = column.clearance;
-  out.last_seen[i] = column.last_seen;
-  out.flags[i] = column.flags;
-  out.visibility[i] = column.visibility;
-}
-
-/// Whether ground may be assumed in a column (R9): its centre lies within the vehicle's radius.
-GVOM_HD inline bool under_vehicle(const ColumnParameters& p, std::int32_t x, std::int32_t y) {
+/// Ground may be assumed where the column's centre is within the vehicle's radius (R9): on the plane that the
+/// vehicle stands on, metres; else kNone_m.
+GVOM_HD inline float assumed_ground_m(const ColumnParameters& p, std::int32_t x, std::int32_t y) {
   const double dx_m = (p.origin[0] + x + 0.5) * p.resolution_xy_m - p.vehicle_x_m;
   const double dy_m = (p.origin[1] + y + 0.5) * p.resolution_xy_m - p.vehicle_y_m;
-  return std::sqrt(dx_m * dx_m + dy_m * dy_m) <= p.vehicle_radius_m;
+  if (!(std::sqrt(dx_m * dx_m + dy_m * dy_m) <= p.vehicle_radius_m)) return kNone_m;
+  return static_cast<float>(p.ground_under_vehicle_m + (p.ground_slope_x * dx_m + p.ground_slope_y * dy_m));
 }
 
-/// Index of the lowest set bit of a column's mask, or -1.
-GVOM_HD inline std::int32_t lowest_bit(const std::uint64_t* mask, std::int32_t words) {
-  for (std::int32_t w = 0; w < words; ++w) {
-    if (mask[w] == 0) continue;
-#ifdef __CUDA_ARCH__
-    return w * 64 + __ffsll(static_cast<long long>(mask[w])) - 1;
-#else
-    return w * 64 + __builtin_ctzll(mask[w]);
-#endif
-  }
-  return -1;
-}
-
-/// The next set bit above `bit`, or -1.
-GVOM_HD inline std::int32_t next_bit(const std::uint64_t* mask, std::int32_t words, std::int32_t bit) {
-  const std::int32_t word = bit / 64;
-  const std::uint64_t above = bit % 64 == 63 ? 0 : mask[word] & (~std::uint64_t{0} << (bit % 64 + 1));
-  if (above != 0) return word * 64 + lowest_bit(&above, 1);
-  const std::int32_t next = lowest_bit(mask + word + 1, words - word - 1);
-  return next < 0 ? -1 : (word + 1) * 64 + next;
-}
-
-/// The highest set bit up to and with `bit`, or -1.
-GVOM_HD inline std::int32_t last_bit_up_to(const std::uint64_t* mask, std::int32_t bit) {
-  std::uint64_t bits = mask[bit / 64] & (~std::uint64_t{0} >> (63 - bit % 64));
-  for (std::int32_t word = bit / 64;; bits = mask[--word]) {
-    if (bits != 0) {
-#ifdef __CUDA_ARCH__
-      return word * 64 + 63 - __clzll(static_cast<long long>(bits));
-#else
-      return word * 64 + 63 - __builtin_clzll(bits);
-#endif
-    }
-    if (word == 0) return -1;
-  }
-}
-
-/// Obstacles and clearance above the ground (R11, R14). Heights of a column's voxels ascend, so the walk
-/// ends at the first one over `max_obstacle_height`.
-GVOM_HD inline void obstacles_above(const FusedView& map, const ColumnParameters& p, std::int32_t x,
-                                    std::int32_t y, std::int32_t z, Column& out) {
+/// The lowest occupied voxel that rays have not worn away (R8), or -1.
+GVOM_HD inline std::int32_t lowest_solid(const FusedView& map, std::int32_t x, std::int32_t y) {
   const std::uint64_t* occupied = map.occupied + map.column(x, y) * static_cast<std::size_t>(map.words);
-  std::uint64_t hits = 0;
-  std::uint64_t rays = 0;
+  std::int32_t z = lowest_bit(occupied, map.words);
   for (; z >= 0; z = next_bit(occupied, map.words, z)) {
     const std::size_t cell = map.cell(x, y, z);
-    const double above_m = static_cast<double>(map.min_height_m[cell]) - static_cast<double>(out.height);
-    if (above_m > p.layers.max_obstacle_height_m) {
-      out.clearance = static_cast<float>(above_m);
-      break;
-    }
-    if (above_m < p.layers.min_obstacle_height_m) continue;
-    hits += map.hits[cell];
-    rays += std::uint64_t{map.hits[cell]} + map.passes[cell];
+    if (map.passes[cell] <= kMostPassesPerHit * std::uint64_t{map.hits[cell]}) break;
   }
-  if (hits == 0) return;
-  const double density = static_cast<double>(hits) / static_cast<double>(rays);
-  out.obstacle_density = static_cast<float>(density);
-  out.flags |= density >= p.layers.density_threshold ? kHard : kSoft;
+  return z;
 }
 
-/// Everything of a column that does not depend on its neighbours (R9, R10, R11, R14, R15).
-GVOM_HD inline Column read_column(const FusedView& map, const ColumnParameters& p, std::int32_t x,
-                                  std::int32_t y) {
+/// Whether rays went below voxel `z` of a column (R9): one left the column lower, and a voxel further down
+/// was passed at least as often as this one was hit.
+GVOM_HD inline bool hangs(const FusedView& map, std::int32_t x, std::int32_t y, std::int32_t z,
+                          float lowest_m, float lowest_ray_m) {
+  if (!(lowest_m - lowest_ray_m > kHangs_m)) return false;
+  const std::uint64_t* free = map.free + map.column(x, y) * static_cast<std::size_t>(map.words);
+  const std::uint32_t hits = map.hits[map.cell(x, y, z)];
+  for (std::int32_t below = lowest_bit(free, map.words); below >= 0 && below < z;
+       below = next_bit(free, map.words, below))
+    if (map.passes[map.cell(x, y, below)] >= hits) return true;
+  return false;
+}
+
+/// What a column's own voxels say of the ground (R9, R10, R15).
+struct ColumnGround {
+  float inferred_height;
+  float last_seen;
+  float lowest_m;  ///< Of its lowest return, or kNone_m.
+  float ground_m;  ///< Seen or assumed, or kNone_m.
+  bool assumed;
+  bool observed;
+};
+
+GVOM_HD inline ColumnGround read_ground(const FusedView& map, const ColumnParameters& p, std::int32_t x,
+                                        std::int32_t y, float lowest_ray_m) {
   const std::size_t column = map.column(x, y);
-  const std::size_t mask = column * static_cast<std::size_t>(map.words);
-  const std::int32_t ground = lowest_bit(map.occupied + mask, map.words);
-  const std::int32_t lowest_free = lowest_bit(map.free + mask, map.words);
-  const bool assumed = ground < 0 && under_vehicle(p, x, y);
-  Column out{
-      kUnknown, kUnknown, kUnknown, kUnknown, kUnknown, 0, static_cast<std::uint8_t>(Visibility::unobserved)};
-  if (lowest_free >= 0) {
+  const std::int32_t lowest_free =
+      lowest_bit(map.free + column * static_cast<std::size_t>(map.words), map.words);
+  const std::int32_t z = lowest_solid(map, x, y);
+  ColumnGround out{kUnknown, kUnknown, kNone_m, kNone_m, false, lowest_free >= 0 || z >= 0};
+  if (lowest_free >= 0)
     out.inferred_height = static_cast<float>((p.origin[2] + lowest_free) * p.resolution_z_m);
-    out.visibility = static_cast<std::uint8_t>(Visibility::free_only);
-  }
   if (map.last_seen_ns[column] != kNeverSeen)
     out.last_seen = static_cast<float>(static_cast<double>(p.stamp_ns - map.last_seen_ns[column]) * 1e-9);
-  if (ground < 0 && !assumed) return out;
-  out.obstacle_density = 0;
-  out.clearance = INFINITY;
-  if (assumed) {
-    out.height = p.ground_under_vehicle_m;
-    out.flags = kAssumed;
-    out.visibility = static_cast<std::uint8_t>(Visibility::ground_assumed);
+  if (z < 0) {
+    out.ground_m = assumed_ground_m(p, x, y);
+    out.assumed = out.ground_m != kNone_m;
     return out;
   }
-  out.height = map.min_height_m[map.cell(x, y, ground)];
-  out.visibility = static_cast<std::uint8_t>(Visibility::ground_seen);
-  obstacles_above(map, p, x, y, ground, out);
+  out.lowest_m = map.min_height_m[map.cell(x, y, z)];
+  if (hangs(map, x, y, z, out.lowest_m, lowest_ray_m)) return out;
+  const float below_m = out.lowest_m - lowest_ray_m;
+  out.ground_m = below_m > kBlades_m && below_m <= kHangs_m ? lowest_ray_m : out.lowest_m;
   return out;
 }
 
-/// Only a column that rays went over without finding ground can hide a hole (R13).
-GVOM_HD inline bool seen_through(float height, float inferred_height) {
-  return std::isnan(height) && !std::isnan(inferred_height);
+/// R15, where a lowest return that hangs finds its ground.
+GVOM_HD inline Visibility visibility_of(const ColumnGround& column) {
+  if (column.assumed) return Visibility::ground_assumed;
+  if (column.lowest_m != kNone_m) return Visibility::ground_seen;
+  return column.observed ? Visibility::free_only : Visibility::unobserved;
+}
+
+/// `height` of a column (R9), or kNone_m. @param ground_m, lowest_m as in ColumnGround, @param stands_out
+/// higher than the ground on both sides, @param between_m `ground_between_rims` of a column that stands out
+/// or whose lowest return hangs
+GVOM_HD inline float height_of_ground_m(float ground_m, float lowest_m, bool stands_out, float between_m) {
+  const bool seen = ground_m != kNone_m;
+  if (seen && (!stands_out || between_m == kNone_m)) return ground_m;
+  return between_m == kNone_m ? kNone_m : lower_of(between_m, seen ? ground_m : lowest_m);
+}
+
+inline HoleParameters hole_parameters(const ColumnParameters& p) {
+  const std::int32_t reach = p.layers.search_distance;
+  return {p.resolution_xy_m,
+          kHoleShare * p.layers.negative_threshold_m,
+          kEdgeShare * p.layers.negative_threshold_m,
+          reach,
+          reach * 2 / 5,
+          p.vehicle_column_x,
+          p.vehicle_column_y};
 }
 
 /// One byte of cost from a column's layers (R16).

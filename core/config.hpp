@@ -43,8 +43,8 @@ struct LayersConfig {
   double density_threshold = 0.5;      ///< HARD from here on (R11), 0 .. 1.
   int plane_size = 3;                  ///< N of the N x N plane fit (R12), odd, 3 .. 15.
   double slope_threshold_rad = 0.5;    ///< STEEP from here on (R12), 0 .. 1.5708.
-  int search_distance = 15;            ///< Cells searched for a rim (R13), 1 .. 255.
-  double negative_threshold_m = 0.5;   ///< NEGATIVE above this drop (R13), 0 .. 20.
+  int search_distance = 20;            ///< Columns searched for a rim (R13), 1 .. 255.
+  double negative_threshold_m = 0.5;   ///< A hole this deep matters (R13), 0 .. 20.
 };
 
 /// The weights of the cost layer (R16).

@@ -1,74 +1,266 @@
-// Negative obstacles (R13): the cone search from a column that was seen through, for host and device.
+// Negative obstacles (R13), for host and device: a hole is where a ray has been below the ground that should
+// be there, by what the ground on this side of it and beyond it says.
 #pragma once
 
-#include <cmath>
-#include <cstdint>
-
-#include "core/format/platform.hpp"
+#include "core/column_grid.hpp"
 
 namespace gvom {
 
-/// An offset of this size, either sign: there is no defined height in the line.
-inline constexpr std::int16_t kNoneInRow = INT16_MAX;
+/// The line from a column to the vehicle and away from it: whole columns along the longer axis.
+class SightLine {
+ public:
+  GVOM_HD SightLine(std::int32_t x, std::int32_t y, std::int32_t vehicle_x, std::int32_t vehicle_y)
+      : x_(x), y_(y) {
+    const std::int32_t dx = vehicle_x - x, dy = vehicle_y - y;
+    const std::int32_t along_x = dx < 0 ? -dx : dx, along_y = dy < 0 ? -dy : dy;
+    by_x_ = along_x >= along_y;
+    columns_ = by_x_ ? along_x : along_y;
+    major_ = (by_x_ ? dx : dy) < 0 ? -1 : 1;
+    const std::int32_t minor = by_x_ ? dy : dx;
+    slope_ = columns_ == 0 ? 0 : minor * 65536 / columns_;
+    columns_square_ = dx * dx + dy * dy;
+  }
 
-/// For every column the signed offset to the nearest defined height (0: its own), the smaller one on a
-/// tie. With these the widening row of a search is one look: is the nearest within -i .. i?
-struct NearestHeights {
-  const std::int16_t* along_x;  ///< Within the column's row, [y][x].
-  const std::int16_t* along_y;  ///< Within the column's x, [y][x].
+  /// Columns along the longer axis to the vehicle's.
+  [[nodiscard]] GVOM_HD std::int32_t columns() const { return columns_; }
+  /// Length of a step, metres.
+  [[nodiscard]] GVOM_HD double step_m(double resolution_m) const {
+    return resolution_m * std::sqrt(static_cast<double>(columns_square_)) / columns_;
+  }
+  /// Index of the column `steps` towards the vehicle (negative: away from it), or -1 beyond the grid.
+  [[nodiscard]] GVOM_HD std::int32_t at(const ColumnGrid& grid, std::int32_t steps) const {
+    const std::int32_t x = x_at(steps), y = y_at(steps);
+    return grid.contains(x, y) ? grid.at(x, y) : -1;
+  }
+  /// The same where a column beside it may still be in the grid: then perhaps in the margin.
+  [[nodiscard]] GVOM_HD std::int32_t middle_at(const ColumnGrid& grid, std::int32_t steps) const {
+    const std::int32_t x = x_at(steps), y = y_at(steps), n = grid.n_xy;
+    const bool near_grid = x >= -1 && y >= -1 && x <= n && y <= n;
+    return near_grid ? grid.at(x, y) : -1;
+  }
+  /// From the middle column of a step to the one beside it.
+  [[nodiscard]] GVOM_HD std::int32_t beside(const ColumnGrid& grid) const { return by_x_ ? grid.pitch() : 1; }
+
+ private:
+  [[nodiscard]] GVOM_HD std::int32_t along(std::int32_t steps) const { return steps * major_; }
+  [[nodiscard]] GVOM_HD std::int32_t across(std::int32_t steps) const {
+    return (steps * slope_ + 32768) >> 16;
+  }
+  [[nodiscard]] GVOM_HD std::int32_t x_at(std::int32_t steps) const {
+    return x_ + (by_x_ ? along(steps) : across(steps));
+  }
+  [[nodiscard]] GVOM_HD std::int32_t y_at(std::int32_t steps) const {
+    return y_ + (by_x_ ? across(steps) : along(steps));
+  }
+
+  std::int32_t x_, y_, columns_, major_, slope_, columns_square_;
+  bool by_x_;
 };
 
-/// Whether the nearest height of a line is within the search's width at distance `i`: within -i .. i.
-GVOM_HD inline bool in_cone(std::int16_t offset, std::int16_t i) {
-  const auto least = static_cast<std::int16_t>(-i);
-  return (static_cast<int>(offset >= least) & static_cast<int>(offset <= i)) != 0;
-}
+/// Least-squares line through rims, heights relative to one of them, over steps from that one on.
+struct RimLine {
+  std::int32_t n = 0, k = 0, kk = 0;
+  double z = 0, kz = 0, zz = 0;
 
-/// The directions of the search, in this order.
-inline constexpr int kDirections = 4;
-GVOM_HD inline std::int32_t direction_x(int direction) {
-  return direction == 0 ? 1 : direction == 1 ? -1 : 0;
-}
-GVOM_HD inline std::int32_t direction_y(int direction) {
-  return direction == 2 ? 1 : direction == 3 ? -1 : 0;
-}
-
-/// The height that the search in a direction finds at distance `i`, where it is in the cone.
-GVOM_HD inline float height_in_cone(const float* height, const NearestHeights& nearest, std::int32_t n_xy,
-                                    std::int32_t column, int direction, std::int32_t i) {
-  const std::int32_t dx = direction_x(direction), dy = direction_y(direction);
-  const std::int32_t at = column + i * (dy * n_xy + dx);
-  return height[dx != 0 ? at + nearest.along_y[at] * n_xy : at + nearest.along_x[at]];
-}
-
-/// At which distance the search of R13 in a direction finds a height, or 0.
-GVOM_HD inline std::int32_t search_cone(const NearestHeights& nearest, std::int32_t n_xy, std::int32_t x,
-                                        std::int32_t y, int direction, std::int32_t distance) {
-  const std::int32_t dx = direction_x(direction), dy = direction_y(direction);
-  for (std::int32_t i = 1; i <= distance; ++i) {
-    const std::int32_t cx = x + i * dx, cy = y + i * dy;
-    if (cx < 0 || cx >= n_xy || cy < 0 || cy >= n_xy) return 0;
-    const std::int32_t at = cy * n_xy + cx;
-    if (in_cone(dx != 0 ? nearest.along_y[at] : nearest.along_x[at], static_cast<std::int16_t>(i))) return i;
+  GVOM_HD void add(std::int32_t steps, double height_m) {
+    n += 1, k += steps, kk += steps * steps;
+    z += height_m, kz += steps * height_m, zz += height_m * height_m;
   }
-  return 0;
+};
+
+struct RimFit {
+  double at_first_m;      ///< Height where the line begins, relative.
+  double slope_per_step;  ///< Metres.
+  double rms_m;
+  bool defined;
+};
+
+GVOM_HD inline RimFit solve_rims(const RimLine& s) {
+  const std::int32_t determinant = s.n * s.kk - s.k * s.k;
+  if (s.n < 3 || determinant <= 0) return {0, 0, 0, false};
+  const double slope = (s.n * s.kz - s.k * s.z) / determinant;
+  const double first = (s.z - slope * s.k) / s.n;
+  const double squares = (s.zz - first * s.z) - slope * s.kz;
+  return {first, slope, std::sqrt(squares > 0 ? squares / s.n : 0), true};
 }
 
-/// `negative_delta` of a column that was seen through (R13), metres.
-/// @param found distances of `search_cone` in the four directions
-GVOM_HD inline double negative_delta(const float* height, const NearestHeights& nearest, std::int32_t n_xy,
-                                     std::int32_t column, const std::int32_t (&found)[kDirections],
-                                     float inferred_height) {
-  double highest = -INFINITY;
-  double lowest = static_cast<double>(inferred_height);
-  for (int direction = 0; direction < kDirections; ++direction) {
-    if (found[direction] == 0) continue;
-    const auto rim =
-        static_cast<double>(height_in_cone(height, nearest, n_xy, column, direction, found[direction]));
-    highest = rim > highest ? rim : highest;
-    lowest = rim < lowest ? rim : lowest;
+/// Numbers of R13 that depend on the configuration.
+struct HoleParameters {
+  double resolution_m;
+  double hole_m;                      ///< So much of a hole that matters shows when it is met.
+  double edge_m;                      ///< The same of a drop behind an edge.
+  std::int32_t reach;                 ///< Steps to a rim, and to the ground beyond.
+  std::int32_t edge_reach;            ///< Steps to the rim of an edge.
+  std::int32_t vehicle_x, vehicle_y;  ///< The vehicle's column.
+};
+
+inline constexpr double kHoleShare = 0.16;  ///< Of `negative_threshold`.
+inline constexpr double kEdgeShare = 0.4;
+inline constexpr double kHolePerRange = 0.002;  ///< What attitude and sampling add, metres a metre.
+inline constexpr double kEdgePerRange = 0.004;
+inline constexpr double kUnevenness = 0.5;  ///< Of the rms of the rims.
+inline constexpr double kEdgeSlope = 0.05;
+inline constexpr double kEdgeSlopePerLength_per_m = 0.01;
+inline constexpr double kMostRms_m = 0.1;
+inline constexpr double kMostSlope = 0.546;  ///< m/m, that of 0.5 rad.
+inline constexpr std::int32_t kNearSteps = 4, kFarSteps = 8, kMostSteps = 15, kBendSteps = 8;
+inline constexpr double kBend = 2;
+inline constexpr std::int32_t kLeastNeighbours = 2;  ///< Of a hole's column that show one too.
+
+/// One column's search. Of the three columns of a step the middle one counts first, then the one before it
+/// and the one behind it in the order of the grid.
+class HoleSearch {
+ public:
+  GVOM_HD HoleSearch(const GroundView& view, const HoleParameters& p, std::int32_t x, std::int32_t y)
+      : view_(view),
+        p_(p),
+        line_(x, y, p.vehicle_x, p.vehicle_y),
+        beside_(line_.beside(view.grid)),
+        lowest_m_(static_cast<double>(view.lowest_ray_m[view.grid.at(x, y)])) {}
+
+  /// By how much a ray has been below the ground that should be there, or 0. The column has no ground of its
+  /// own, and a ray has left it.
+  GVOM_HD double depth_m() {
+    if (line_.columns() == 0 || !find_rim()) return 0;
+    const double hole = hole_depth_m();
+    const double edge = edge_depth_m();
+    return hole > edge ? hole : edge;
   }
-  return highest == -INFINITY ? 0 : highest - lowest;
+
+ private:
+  /// The ground that should be there, and how uneven it is.
+  struct Near {
+    RimFit fit;
+    std::int32_t steps;     ///< Looked at.
+    std::int32_t last_rim;  ///< Steps from the first one.
+  };
+
+  GVOM_HD bool find_rim() {
+    const std::int32_t most = p_.reach < line_.columns() ? p_.reach : line_.columns();
+    for (rim_steps_ = 1; rim_steps_ <= most; ++rim_steps_) {
+      const std::int32_t at = line_.middle_at(view_.grid, rim_steps_);
+      if (at < 0) return false;
+      const std::int32_t rim = is_rim(at) ? at : is_rim(at - beside_) ? at - beside_ : at + beside_;
+      if (!is_rim(rim)) continue;
+      rim_m_ = static_cast<double>(view_.ground_m[rim]);
+      return true;
+    }
+    return false;
+  }
+
+  [[nodiscard]] GVOM_HD bool is_rim(std::int32_t at) const { return view_.is_rim[at] != 0; }
+  [[nodiscard]] GVOM_HD bool is_ground(std::int32_t at) const { return view_.ground_m[at] != kNone_m; }
+
+  /// Adds the rims of a step, `steps` towards the vehicle, as `k` steps on from where the line begins.
+  GVOM_HD bool add_rims(RimLine& line, std::int32_t steps, std::int32_t k) const {
+    const std::int32_t middle = line_.middle_at(view_.grid, steps);
+    if (middle < 0) return false;
+    const std::int32_t before = line.n;
+    const std::int32_t columns[3] = {middle, middle - beside_, middle + beside_};
+    for (const std::int32_t at : columns)
+      if (is_rim(at)) line.add(k, static_cast<double>(view_.ground_m[at]) - rim_m_);
+    return line.n > before;
+  }
+
+  GVOM_HD Near near_line() const {
+    RimLine line;
+    std::int32_t k = 0, last = 0;
+    for (; k <= kNearSteps || (line.n < 3 && k <= kMostSteps); ++k)
+      if (add_rims(line, rim_steps_ + k, k)) last = k;
+    return {solve_rims(line), k, last};
+  }
+
+  /// A hole: ground beyond it, whose line begins at the first ground there, and the rim on this side.
+  GVOM_HD double hole_depth_m() const {
+    const std::int32_t far = first_ground_beyond();
+    if (far == 0) return 0;
+    RimLine line;
+    for (std::int32_t k = 1; k <= kFarSteps || (line.n < 3 && k <= kMostSteps); ++k)
+      add_rims(line, -(far + k), k);
+    if (is_surely_lower(line, far)) return 0;
+    const RimFit fit = solve_rims(line);
+    if (!fits(fit)) return 0;
+    const double expected = rim_m_ + fit.at_first_m * rim_steps_ / (rim_steps_ + far);
+    const double depth = expected - lowest_m_;
+    const double even = p_.hole_m + kHolePerRange * range_m();
+    if (!(depth > even)) return 0;
+    return depth > even + kUnevenness * (fit.rms_m + near_line().fit.rms_m) ? depth : 0;
+  }
+
+  /// Whether the ground beyond is so low that no hole can show, however the last bits are rounded: nearly
+  /// always, and without a division.
+  [[nodiscard]] GVOM_HD bool is_surely_lower(const RimLine& s, std::int32_t far) const {
+    constexpr double kRounding_m = 1e-6;
+    const double determinant = s.n * s.kk - s.k * s.k;
+    const double first = (s.z * s.kk - s.kz * s.k) * rim_steps_;
+    const double least = ((lowest_m_ - rim_m_) + p_.hole_m - kRounding_m) * (rim_steps_ + far);
+    return first < least * determinant;
+  }
+
+  /// Steps to it, or 0.
+  [[nodiscard]] GVOM_HD std::int32_t first_ground_beyond() const {
+    for (std::int32_t far = 1; far <= p_.reach; ++far) {
+      const std::int32_t at = line_.middle_at(view_.grid, -far);
+      if (at < 0) return 0;
+      if (is_ground(at) || is_ground(at - beside_) || is_ground(at + beside_)) return far;
+    }
+    return 0;
+  }
+
+  /// An edge: the ground before it goes on no higher than level, and bends as it did.
+  GVOM_HD double edge_depth_m() const {
+    if (rim_steps_ > p_.edge_reach || !(rim_m_ - lowest_m_ > p_.edge_m)) return 0;
+    const Near near = near_line();
+    if (!fits(near.fit)) return 0;
+    const double slope = slope_behind(near);
+    const double rim_m = rim_m_ + (near.fit.at_first_m < 0 ? near.fit.at_first_m : 0);
+    const double expected = rim_m + (slope < 0 ? slope : 0) * rim_steps_;
+    const double depth = expected - lowest_m_;
+    const double flat = (p_.edge_m + kEdgePerRange * range_m()) + kUnevenness * near.fit.rms_m;
+    const double most_slope = kEdgeSlope + kEdgeSlopePerLength_per_m * (near.last_rim * step_m());
+    const double steep = most_slope * (rim_steps_ * step_m());
+    return depth > (flat > steep ? flat : steep) ? depth : 0;
+  }
+
+  /// How the ground goes on away from the vehicle, metres a step: as it is at the edge, and bent as before
+  /// it.
+  GVOM_HD double slope_behind(const Near& near) const {
+    RimLine line;
+    for (std::int32_t k = near.steps; k < near.steps + kBendSteps; ++k) add_rims(line, rim_steps_ + k, k);
+    const RimFit earlier = solve_rims(line);
+    const double slope = -near.fit.slope_per_step;
+    const double bend = -earlier.slope_per_step - slope;
+    return earlier.defined && bend > 0 ? slope - kBend * bend : slope;
+  }
+
+  [[nodiscard]] GVOM_HD bool fits(const RimFit& fit) const {
+    const double slope = fit.slope_per_step < 0 ? -fit.slope_per_step : fit.slope_per_step;
+    return fit.defined && fit.rms_m <= kMostRms_m && slope <= kMostSlope * step_m();
+  }
+  [[nodiscard]] GVOM_HD double step_m() const { return line_.step_m(p_.resolution_m); }
+  [[nodiscard]] GVOM_HD double range_m() const { return line_.columns() * step_m(); }
+
+  const GroundView& view_;
+  const HoleParameters& p_;
+  SightLine line_;
+  std::int32_t beside_;
+  double lowest_m_;
+  std::int32_t rim_steps_ = 0;
+  double rim_m_ = 0;
+};
+
+/// A column that a ray has left without having found ground.
+GVOM_HD inline bool may_hide_hole(const GroundView& view, std::int32_t at) {
+  return view.lowest_ray_m[at] != kNone_m && view.ground_m[at] == kNone_m;
+}
+
+/// NEGATIVE (R13): a hole shows in this column and in its neighbours. @param shows 1 or 0, at the column
+GVOM_HD inline bool is_negative(const ColumnGrid& grid, const std::uint8_t* shows) {
+  if (*shows == 0) return false;
+  std::int32_t neighbours = -1;
+  for (std::int32_t dy = -1; dy <= 1; ++dy)
+    for (std::int32_t dx = -1; dx <= 1; ++dx) neighbours += shows[dy * grid.pitch() + dx];
+  return neighbours >= kLeastNeighbours;
 }
 
 }  // namespace gvom

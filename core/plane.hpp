@@ -34,11 +34,14 @@ GVOM_HD inline void add_height(PlaneSums& s, std::int32_t dx, std::int32_t dy, f
   s.z += z, s.xz += dx * z, s.yz += dy * z;
 }
 
-/// `z = a x + b y + c` with x and y in columns; undefined without three points that span a plane.
+/// `z = a x + b y + c` with x and y in columns; undefined without enough points that span a plane.
 struct PlaneFit {
   double a, b, c;
   bool defined;
 };
+
+/// Fewer columns with ground do not say how it slopes.
+inline constexpr std::int32_t kLeastPlaneColumns = 5;
 
 /// Least squares (R12).
 GVOM_HD inline PlaneFit solve_plane(const PlaneSums& s) {
@@ -49,7 +52,7 @@ GVOM_HD inline PlaneFit solve_plane(const PlaneSums& s) {
   const double cyz = n * s.yz - y * s.z;
   const double a = (cyy * cxz - cxy * cyz) / determinant;
   const double b = (cxx * cyz - cxy * cxz) / determinant;
-  const bool defined = (static_cast<int>(s.n >= 3) & static_cast<int>(determinant > 0)) != 0;
+  const bool defined = (static_cast<int>(s.n >= kLeastPlaneColumns) & static_cast<int>(determinant > 0)) != 0;
   return {a, b, ((s.z - a * x) - b * y) / n, defined};
 }
 
@@ -60,14 +63,29 @@ GVOM_HD inline double squared_residual(const PlaneFit& fit, std::int32_t dx, std
   return z_m == z_m ? square : 0;
 }
 
-/// The layers of a fitted plane (R12).
-GVOM_HD inline Plane plane_layers(const PlaneFit& fit, std::int32_t n, double squares_m2, double resolution_m,
-                                  double threshold_rad) {
+/// How far columns spread about their mean along the axis along which they spread less: a sum of squares,
+/// columns^2.
+GVOM_HD inline double least_spread(const PlaneSums& s) {
+  const double n = s.n, x = s.x, y = s.y;
+  const double cxx = n * s.xx - x * x, cyy = n * s.yy - y * y;
+  return (cxx < cyy ? cxx : cyy) / n;
+}
+
+/// The layers of a fitted plane (R12). It is steep if its slope is, and that slope less its standard error:
+/// uneven ground is rough, not steep.
+GVOM_HD inline Plane plane_layers(const PlaneFit& fit, const PlaneSums& sums, double squares_m2,
+                                  double resolution_m, double threshold_rad) {
   if (!fit.defined) return {kUnknown, kUnknown, kUnknown, kUnknown, false};
   const double slope_x = fit.a / resolution_m, slope_y = fit.b / resolution_m;
-  const double slope = arctangent(std::sqrt(slope_x * slope_x + slope_y * slope_y));
-  return {static_cast<float>(slope_x), static_cast<float>(slope_y), static_cast<float>(slope),
-          static_cast<float>(squares_m2 / n), slope >= threshold_rad};
+  const double slope = std::sqrt(slope_x * slope_x + slope_y * slope_y);
+  const double roughness = squares_m2 / sums.n;
+  const double slope_rad = arctangent(slope);
+  const auto steep = [&] {
+    const double least = slope - std::sqrt(roughness / least_spread(sums)) / resolution_m;
+    return least > 0 && arctangent(least) >= threshold_rad;
+  };
+  return {static_cast<float>(slope_x), static_cast<float>(slope_y), static_cast<float>(slope_rad),
+          static_cast<float>(roughness), slope_rad >= threshold_rad && steep()};
 }
 
 }  // namespace gvom

@@ -4,7 +4,9 @@
 #include <cstdint>
 
 #include "core/column.hpp"
+#include "core/cpu/ground_finder.hpp"
 #include "core/cpu/negative_finder.hpp"
+#include "core/cpu/obstacle_finder.hpp"
 #include "core/cpu/plane_fitter.hpp"
 #include "core/format/layers.hpp"
 
@@ -20,6 +22,8 @@ class LayerMaker {
  private:
   MapperConfig config_;
   std::int32_t n_xy_;
+  GroundFinder ground_;
+  ObstacleFinder obstacles_;
   PlaneFitter planes_;
   NegativeFinder negatives_;
 };

@@ -12,6 +12,12 @@ namespace {
 // The formulas of core/plane.hpp over a row whose numbers lie side by side, so that the compiler takes
 // several columns at a time.
 
+// Heights of seen or assumed ground.
+GVOM_CLONES void copy_ground(const float* height_m, const float* ground_m, std::int32_t n, float* out_m) {
+  GVOM_INDEPENDENT
+  for (std::int32_t x = 0; x < n; ++x) out_m[x] = ground_m[x] != kNone_m ? height_m[x] : kUnknown;
+}
+
 GVOM_CLONES void add_row(const float* z_m, std::int32_t n, std::int32_t dx, std::int32_t dy,
                          const SumRows& rows) {
   GVOM_INDEPENDENT
@@ -58,10 +64,11 @@ PlaneFitter::PlaneFitter(std::int32_t n_xy, std::int32_t plane_size)
   fits_ = {d + 3 * n_xy, d + 4 * n_xy, d + 5 * n_xy, d + 6 * n_xy, i + 6 * n_xy};
 }
 
-void PlaneFitter::fit(const ColumnParameters& p, const LayerArrays& out) {
+void PlaneFitter::fit(const ColumnParameters& p, const GroundView& ground, const LayerArrays& out) {
   const std::ptrdiff_t width = n_xy_ + 2 * radius_;
-  for (std::ptrdiff_t y = 0; y < n_xy_; ++y)
-    std::copy_n(out.height + y * n_xy_, n_xy_, padded_.data() + (y + radius_) * width + radius_);
+  for (std::int32_t y = 0; y < n_xy_; ++y)
+    copy_ground(out.height + std::ptrdiff_t{y} * n_xy_, ground.ground_m + ground.grid.at(0, y), n_xy_,
+                padded_.data() + (y + radius_) * width + radius_);
   for (std::ptrdiff_t y = 0; y < n_xy_; ++y) {
     const float* centre = padded_.data() + (y + radius_) * width + radius_;
     std::fill(integers_.begin(), integers_.end(), 0);
@@ -75,8 +82,10 @@ void PlaneFitter::fit(const ColumnParameters& p, const LayerArrays& out) {
         add_squares(centre + dy * width + dx, n_xy_, dx, dy, fits_);
     for (std::ptrdiff_t x = 0; x < n_xy_; ++x) {
       const PlaneFit fit{fits_.a[x], fits_.b[x], fits_.c[x], fits_.defined[x] != 0};
+      const PlaneSums sums{sums_.n[x],  sums_.x[x], sums_.y[x],  sums_.xx[x], sums_.xy[x],
+                           sums_.yy[x], sums_.z[x], sums_.xz[x], sums_.yz[x]};
       const Plane plane =
-          plane_layers(fit, sums_.n[x], fits_.squares_m2[x], p.resolution_xy_m, p.layers.slope_threshold_rad);
+          plane_layers(fit, sums, fits_.squares_m2[x], p.resolution_xy_m, p.layers.slope_threshold_rad);
       const std::ptrdiff_t i = y * n_xy_ + x;
       out.slope_x[i] = plane.slope_x;
       out.slope_y[i] = plane.slope_y;

@@ -30,8 +30,9 @@ class PlaneFitter {
   PlaneFitter(const PlaneFitter&) = delete;
   PlaneFitter& operator=(const PlaneFitter&) = delete;
 
-  /// Reads `height`; writes `slope_x`, `slope_y`, `slope`, `roughness` and the flag STEEP.
-  void fit(const ColumnParameters& p, const LayerArrays& out);
+  /// Reads `height` where there is seen or assumed ground; writes `slope_x`, `slope_y`, `slope`, `roughness`
+  /// and the flag STEEP.
+  void fit(const ColumnParameters& p, const GroundView& ground, const LayerArrays& out);
 
  private:
   std::int32_t n_xy_;

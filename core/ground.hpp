@@ -1,0 +1,76 @@
+// The ground of a column (R9), for host and device.
+//
+// What a column's lowest return hit is its ground, unless rays went below it: then it hangs there, a crown or
+// a branch, and the ground is what the columns around it say. What stands on the ground, a bush or a rock, is
+// higher than the ground on both sides of it.
+#pragma once
+
+#include "core/column_grid.hpp"
+
+namespace gvom {
+
+/// A lowest return hangs if a ray left its column this far below it, metres.
+inline constexpr float kHangs_m = 0.3F;
+/// A ray this far below the lowest return, but not that far, was on ground between blades or stones.
+inline constexpr float kBlades_m = 0.1F;
+
+/// Ground stands out if it is higher than the ground on both sides, at one of `kSides` columns, by this much
+/// and by what the curvature of ground allows.
+inline constexpr double kStandsOut_m = 0.1;
+inline constexpr double kCurvature_per_m = 0.08;  ///< Of the square of the distance.
+inline constexpr std::int32_t kSides = 8;
+
+/// A rim is no higher than ground around it, up to `kConeReach` columns along x and y, would let it be.
+inline constexpr double kConeSlope = 0.6;  ///< m/m along an axis; over the diagonal 1.4 times that.
+inline constexpr float kCone_m = 0.1F;
+inline constexpr std::int32_t kConeReach = 6;
+
+/// The four lines through a column: along x, y and the diagonals.
+inline constexpr std::int32_t kLines = 4;
+GVOM_HD inline std::int32_t line_offset(const ColumnGrid& grid, std::int32_t line) {
+  return line == 0 ? 1 : line == 1 ? grid.pitch() : line == 2 ? grid.pitch() + 1 : 1 - grid.pitch();
+}
+
+/// How much higher than the ground `distance` columns off on both sides ground may be.
+GVOM_HD inline float allowed_rise_m(std::int32_t line, std::int32_t distance, double resolution_m) {
+  const double square = (distance * resolution_m) * (distance * resolution_m) * (line < 2 ? 1 : 2);
+  return static_cast<float>(kStandsOut_m + kCurvature_per_m * square);
+}
+
+/// Whether ground of height `z_m` is higher by more than `allowed_m` than both; an unknown one is higher.
+GVOM_HD inline bool rises_over(float z_m, float one_m, float other_m, float allowed_m) {
+  return z_m > (one_m > other_m ? one_m : other_m) + allowed_m;
+}
+
+/// Height of the cone over ground `distance` columns off along an axis.
+GVOM_HD inline float cone_rise_m(std::int32_t distance, double resolution_m) {
+  return static_cast<float>(kConeSlope * (distance * resolution_m));
+}
+
+GVOM_HD inline float lower_of(float a_m, float b_m) {
+  return b_m < a_m ? b_m : a_m;
+}
+
+/// What the rims around a column say that its ground is: on each line through it that has a rim on both
+/// sides, the height between them, weighted by 1 / (their distance)^2; kNone_m if no line has. `at` indexes
+/// the view.
+GVOM_HD inline float ground_between_rims(const GroundView& view, std::int32_t at) {
+  double weights = 0, heights = 0;
+  for (std::int32_t line = 0; line < kLines; ++line) {
+    const std::int32_t step = line_offset(view.grid, line);
+    std::int32_t before = 1, after = 1;
+    while (before <= kSides && view.is_rim[at - before * step] == 0) ++before;
+    if (before > kSides) continue;
+    while (after <= kSides && view.is_rim[at + after * step] == 0) ++after;
+    if (after > kSides) continue;
+    const double length = before + after;
+    const double weight = 1 / (length * length * (line < 2 ? 1 : 2));
+    const auto z_before = static_cast<double>(view.ground_m[at - before * step]);
+    const auto z_after = static_cast<double>(view.ground_m[at + after * step]);
+    weights += weight;
+    heights += weight * ((z_before * after + z_after * before) / length);
+  }
+  return weights > 0 ? static_cast<float>(heights / weights) : kNone_m;
+}
+
+}  // namespace gvom

@@ -1,0 +1,156 @@
+// Obstacles above the ground (R11, R14), for host and device.
+//
+// What is tall is hard, and so is what is dense, or what no ray passes: behind a rock or a car no ray is low.
+// The columns around a column say more of it than it alone: a trunk fills little of a voxel.
+#pragma once
+
+#include "core/column.hpp"
+#include "core/column_bits.hpp"
+#include "core/column_grid.hpp"
+#include "core/negative.hpp"
+
+namespace gvom {
+
+inline constexpr std::uint32_t kLeastHits = 4;     ///< Of obstacle voxels in the 3 x 3 columns.
+inline constexpr double kLeastDensity = 0.08;      ///< Of these: dust and rain are thinner.
+inline constexpr std::uint32_t kShadowHits = 10;   ///< In the 3 x 3 columns, for what casts a shadow.
+inline constexpr double kLowObstacle_m = 0.1;      ///< Hits so far below an obstacle's height may cast it.
+inline constexpr std::int32_t kLeastDark = 2;      ///< Of the columns behind it.
+inline constexpr std::int32_t kShadowColumns = 4;  ///< Behind the column.
+
+/// Sums over a column's obstacle voxels.
+struct ObstacleSums {
+  std::uint32_t hits;
+  std::uint32_t rays;  ///< Hits and passes.
+  std::uint32_t voxels;
+  std::uint32_t low_hits;  ///< Of voxels up to `kLowObstacle_m` lower, too.
+
+  GVOM_HD void add(const ObstacleSums& other) {
+    hits += other.hits, rays += other.rays, voxels += other.voxels, low_hits += other.low_hits;
+  }
+};
+
+/// What stands and hangs in a column above its ground.
+struct ColumnObstacles {
+  ObstacleSums sums;
+  float clearance_m;
+
+  [[nodiscard]] GVOM_HD float density() const {
+    if (sums.hits == 0) return 0;
+    return static_cast<float>(static_cast<double>(sums.hits) / static_cast<double>(sums.rays));
+  }
+};
+
+/// Heights of a column's voxels ascend, so the walk ends at the first one over `max_obstacle_height`.
+GVOM_HD inline ColumnObstacles read_obstacles(const FusedView& map, const ColumnParameters& p, std::int32_t x,
+                                              std::int32_t y, float ground_m) {
+  const std::uint64_t* occupied = map.occupied + map.column(x, y) * static_cast<std::size_t>(map.words);
+  ColumnObstacles out{{}, INFINITY};
+  for (std::int32_t z = lowest_bit(occupied, map.words); z >= 0; z = next_bit(occupied, map.words, z)) {
+    const std::size_t cell = map.cell(x, y, z);
+    const double above_m = static_cast<double>(map.min_height_m[cell]) - static_cast<double>(ground_m);
+    if (above_m > p.layers.max_obstacle_height_m) {
+      out.clearance_m = static_cast<float>(above_m);
+      break;
+    }
+    if (above_m < p.layers.min_obstacle_height_m - kLowObstacle_m) continue;
+    const std::uint32_t hits = map.hits[cell];
+    out.sums.low_hits += hits;
+    if (above_m < p.layers.min_obstacle_height_m) continue;
+    out.sums.add({hits, hits + map.passes[cell], 1, 0});
+  }
+  return out;
+}
+
+/// The layers that are filled in the 3 x 3 columns around (x, y): one bit for each voxel.
+struct FilledLayers {
+  static constexpr std::int32_t kWords = 4;  // 256 voxels
+  std::uint64_t bits[kWords] = {};
+
+  GVOM_HD FilledLayers(const FusedView& map, std::int32_t x, std::int32_t y) {
+    for (std::int32_t dy = -1; dy <= 1; ++dy)
+      for (std::int32_t dx = -1; dx <= 1; ++dx) {
+        if (!ColumnGrid{map.n_xy}.contains(x + dx, y + dy)) continue;
+        const std::uint64_t* mask =
+            map.occupied + map.column(x + dx, y + dy) * static_cast<std::size_t>(map.words);
+        for (std::int32_t w = 0; w < kWords; ++w)
+          if (w < map.words) bits[w] |= mask[w];
+      }
+  }
+  [[nodiscard]] GVOM_HD bool has(std::int32_t z) const {
+    return z < kWords * 64 && (bits[z / 64] >> (z % 64) & 1) != 0;
+  }
+};
+
+/// The uppermost layer of the stack that begins at `z`: one empty layer at a time may be in it.
+GVOM_HD inline std::int32_t top_of_stack(const FilledLayers& layers, std::int32_t z) {
+  for (;;) {
+    if (layers.has(z + 1))
+      z += 1;
+    else if (layers.has(z + 2))
+      z += 2;
+    else
+      return z;
+  }
+}
+
+/// The highest `min_height` of a layer in the 3 x 3 columns around (x, y).
+GVOM_HD inline float height_of_layer_m(const FusedView& map, std::int32_t x, std::int32_t y, std::int32_t z) {
+  float highest_m = -INFINITY;
+  for (std::int32_t dy = -1; dy <= 1; ++dy)
+    for (std::int32_t dx = -1; dx <= 1; ++dx) {
+      if (!ColumnGrid{map.n_xy}.contains(x + dx, y + dy)) continue;
+      const std::size_t mask = map.column(x + dx, y + dy) * static_cast<std::size_t>(map.words);
+      if ((map.occupied[mask + static_cast<std::size_t>(z / 64)] >> (z % 64) & 1) == 0) continue;
+      const float height_m = map.min_height_m[map.cell(x + dx, y + dy, z)];
+      highest_m = height_m > highest_m ? height_m : highest_m;
+    }
+  return highest_m;
+}
+
+/// Whether the stack over the column's first obstacle voxel reaches `max_obstacle_height`, less a voxel.
+GVOM_HD inline bool is_tall(const FusedView& map, const ColumnParameters& p, std::int32_t x, std::int32_t y,
+                            float ground_m) {
+  const std::uint64_t* occupied = map.occupied + map.column(x, y) * static_cast<std::size_t>(map.words);
+  const auto ground = static_cast<double>(ground_m);
+  std::int32_t z = lowest_bit(occupied, map.words);
+  while (static_cast<double>(map.min_height_m[map.cell(x, y, z)]) - ground < p.layers.min_obstacle_height_m)
+    z = next_bit(occupied, map.words, z);
+  const std::int32_t top = top_of_stack(FilledLayers(map, x, y), z);
+  const auto top_m = static_cast<double>(height_of_layer_m(map, x, y, top));
+  return top_m - ground >= p.layers.max_obstacle_height_m - p.resolution_z_m;
+}
+
+/// Whether rays were kept from the columns behind this one, as seen from the vehicle, up to the height of an
+/// obstacle: from most of them, for a beam's gap is narrow.
+GVOM_HD inline bool casts_shadow(const ColumnGrid& grid, const float* lowest_ray_m, const ColumnParameters& p,
+                                 std::int32_t x, std::int32_t y, float ground_m) {
+  const SightLine line(x, y, p.vehicle_column_x, p.vehicle_column_y);
+  if (line.columns() == 0) return false;
+  std::int32_t dark = 0;
+  for (std::int32_t behind = 1; behind <= kShadowColumns; ++behind) {
+    const std::int32_t at = line.at(grid, -behind);
+    if (at < 0) return false;
+    const double above_m = static_cast<double>(lowest_ray_m[at]) - static_cast<double>(ground_m);
+    dark += above_m >= p.layers.min_obstacle_height_m ? 1 : 0;
+  }
+  return dark >= kLeastDark;
+}
+
+/// Flags of a column with known ground (R11). @param own its own sums, @param around those of the 3 x 3
+/// columns
+GVOM_HD inline std::uint8_t obstacle_flags(const FusedView& map, const ColumnGrid& grid,
+                                           const float* lowest_ray_m, const ColumnParameters& p,
+                                           std::int32_t x, std::int32_t y, float ground_m,
+                                           const ObstacleSums& own, const ObstacleSums& around) {
+  if (own.low_hits == 0) return 0;
+  if (around.low_hits >= kShadowHits && casts_shadow(grid, lowest_ray_m, p, x, y, ground_m)) return kHard;
+  if (own.hits == 0) return 0;
+  const auto hits = static_cast<double>(around.hits), rays = static_cast<double>(around.rays);
+  const auto voxels = static_cast<double>(around.voxels);
+  if (around.hits < kLeastHits || hits < kLeastDensity * rays) return kSoft;
+  const bool dense = rays > voxels && hits - voxels >= p.layers.density_threshold * (rays - voxels);
+  return dense || is_tall(map, p, x, y, ground_m) ? kHard : kSoft;
+}
+
+}  // namespace gvom
