@@ -16,6 +16,12 @@ GVOM_HD inline std::int32_t lowest_bit_of(std::uint64_t word) {
 #endif
 }
 
+/// A word of all bits from `bit` up, which may be below the word or above it.
+GVOM_HD inline std::uint64_t bits_from(std::int32_t bit) {
+  if (bit <= 0) return ~std::uint64_t{0};
+  return bit < 64 ? ~std::uint64_t{0} << bit : 0;
+}
+
 /// Index of the lowest set bit of a column's mask, or -1.
 GVOM_HD inline std::int32_t lowest_bit(const std::uint64_t* mask, std::int32_t words) {
   for (std::int32_t w = 0; w < words; ++w)
@@ -30,21 +36,6 @@ GVOM_HD inline std::int32_t next_bit(const std::uint64_t* mask, std::int32_t wor
   if (above != 0) return word * 64 + lowest_bit_of(above);
   const std::int32_t next = lowest_bit(mask + word + 1, words - word - 1);
   return next < 0 ? -1 : (word + 1) * 64 + next;
-}
-
-/// The highest set bit up to and with `bit`, or -1.
-GVOM_HD inline std::int32_t last_bit_up_to(const std::uint64_t* mask, std::int32_t bit) {
-  std::uint64_t bits = mask[bit / 64] & (~std::uint64_t{0} >> (63 - bit % 64));
-  for (std::int32_t word = bit / 64;; bits = mask[--word]) {
-    if (bits != 0) {
-#ifdef __CUDA_ARCH__
-      return word * 64 + 63 - __clzll(static_cast<long long>(bits));
-#else
-      return word * 64 + 63 - __builtin_clzll(bits);
-#endif
-    }
-    if (word == 0) return -1;
-  }
 }
 
 }  // namespace gvom

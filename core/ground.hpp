@@ -51,6 +51,13 @@ GVOM_HD inline float lower_of(float a_m, float b_m) {
   return b_m < a_m ? b_m : a_m;
 }
 
+/// Whether ground is one by which holes and hidden ground are judged. @param cone_m the lowest cone over the
+/// ground around and itself
+GVOM_HD inline bool is_rim(float ground_m, float cone_m, bool stands_out) {
+  return (static_cast<int>(ground_m <= cone_m + kCone_m) & static_cast<int>(ground_m < kNone_m) &
+          static_cast<int>(!stands_out)) != 0;
+}
+
 /// What the rims around a column say that its ground is: on each line through it that has a rim on both
 /// sides, the height between them, weighted by 1 / (their distance)^2; kNone_m if no line has. `at` indexes
 /// the view.

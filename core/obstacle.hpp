@@ -77,21 +77,22 @@ struct FilledLayers {
           if (w < map.words) bits[w] |= mask[w];
       }
   }
-  [[nodiscard]] GVOM_HD bool has(std::int32_t z) const {
-    return z < kWords * 64 && (bits[z / 64] >> (z % 64) & 1) != 0;
-  }
 };
 
-/// The uppermost layer of the stack that begins at `z`: one empty layer at a time may be in it.
+/// The uppermost layer of the stack that begins at the filled layer `z`, one empty layer at a time being in
+/// it: the first one that has two empty layers over it.
 GVOM_HD inline std::int32_t top_of_stack(const FilledLayers& layers, std::int32_t z) {
-  for (;;) {
-    if (layers.has(z + 1))
-      z += 1;
-    else if (layers.has(z + 2))
-      z += 2;
-    else
-      return z;
+  std::int32_t top = z;
+  std::uint64_t above = 0;
+  GVOM_UNROLL
+  for (std::int32_t w = FilledLayers::kWords - 1; w >= 0; --w) {
+    const std::uint64_t word = layers.bits[w];
+    const std::uint64_t next_two = (word >> 1 | above << 63) | (word >> 2 | above << 62);
+    const std::uint64_t tops = word & ~next_two & bits_from(z - 64 * w);
+    if (tops != 0) top = 64 * w + lowest_bit_of(tops);
+    above = word;
   }
+  return top;
 }
 
 /// The highest `min_height` of a layer in the 3 x 3 columns around (x, y).

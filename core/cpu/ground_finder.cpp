@@ -47,8 +47,7 @@ GVOM_CLONES void mark_rims(const float* ground_m, const float* cone_m, const std
                            std::int32_t n, std::uint8_t* is_rim) {
   GVOM_INDEPENDENT
   for (std::int32_t x = 0; x < n; ++x)
-    is_rim[x] = static_cast<std::uint8_t>(static_cast<int>(ground_m[x] <= cone_m[x] + kCone_m) &
-                                          static_cast<int>(ground_m[x] < kNone_m) & (1 - stands_out[x]));
+    is_rim[x] = static_cast<std::uint8_t>(gvom::is_rim(ground_m[x], cone_m[x], stands_out[x] != 0));
 }
 
 // Heights of the columns that know theirs; marks those that ask the columns around them.
