@@ -1,9 +1,16 @@
 // From the fused map to layers (R9..R16), column by column.
+//
+// Each kernel reads what those before it wrote of the columns around; none writes what another thread of it
+// reads.
 #pragma once
 
+#include <cuda_runtime.h>
+
 #include "core/column.hpp"
-#include "core/cuda/lanes.hpp"
+#include "core/column_grid.hpp"
+#include "core/ground.hpp"
 #include "core/negative.hpp"
+#include "core/obstacle.hpp"
 #include "core/plane.hpp"
 
 namespace gvom::cuda {
@@ -12,129 +19,197 @@ namespace gvom::cuda {
 struct LayerTick {
   FusedView map;
   ColumnParameters parameters;
+  HoleParameters holes;
   LayerArrays out;
 };
 
-/// For each column, [y][x]: what does not depend on its neighbours (R9, R10, R11, R14, R15).
+/// What kernels tell each other of the columns, in arrays of `ColumnGrid::size()` whose margin says that
+/// nothing is known.
+struct ColumnArrays {
+  ColumnGrid grid;
+  float* lowest_ray_m;  ///< As in GroundView, as are `ground_m` and `is_rim`.
+  float* ground_m;
+  float* lowest_m;           ///< Of the lowest return, or kNone_m.
+  float* cone_m;             ///< The lowest cone over ground of the same row, or kNone_m.
+  float* plane_m;            ///< `height` where there is ground, else kUnknown.
+  std::uint8_t* stands_out;  ///< 1: higher than the ground on both sides.
+  std::uint8_t* is_rim;
+  std::uint8_t* shows_hole;  ///< 1 or 0.
+  ObstacleSums* obstacles;
+
+  /// Of the column `i` of a layer.
+  [[nodiscard]] __device__ std::int32_t x(std::int32_t i) const { return i % grid.n_xy; }
+  [[nodiscard]] __device__ std::int32_t y(std::int32_t i) const { return i / grid.n_xy; }
+  [[nodiscard]] __device__ std::int32_t at(std::int32_t i) const { return grid.at(x(i), y(i)); }
+  [[nodiscard]] __device__ GroundView ground() const { return {grid, lowest_ray_m, ground_m, is_rim}; }
+};
+
+/// For each column, [y][x]: what its own voxels say of the ground (R9, R10, R15).
 struct ReadColumns {
   const LayerTick* tick;
+  ColumnArrays columns;
 
   __device__ void operator()(std::int32_t i) const {
     const FusedView& map = tick->map;
-    write_column(read_column(map, tick->parameters, i % map.n_xy, i / map.n_xy), tick->out, i);
+    const LayerArrays& out = tick->out;
+    const std::int32_t x = columns.x(i), y = columns.y(i), at = columns.at(i);
+    const float lowest_ray_m = map.lowest_ray_m[map.stacked_column(x, y)];
+    const ColumnGround column = read_ground(map, tick->parameters, x, y, lowest_ray_m);
+    columns.lowest_ray_m[at] = lowest_ray_m;
+    columns.ground_m[at] = column.ground_m;
+    columns.lowest_m[at] = column.lowest_m;
+    out.inferred_height[i] = column.inferred_height;
+    out.last_seen[i] = column.last_seen;
+    out.flags[i] = column.assumed ? kAssumed : 0;
+    out.visibility[i] = static_cast<std::uint8_t>(visibility_of(column));
   }
 };
 
-/// Which columns of each line have a height, a bit for each: lines along x, [y][word], and along y,
-/// [x][word].
-struct DefinedHeights {
-  std::uint64_t* along_x;
-  std::uint64_t* along_y;
-  std::int32_t words;  ///< Of a line.
+/// How much higher ground may be than ground some columns off (R9): of one resolution, metres.
+struct AllowedRises {
+  float over_sides_m[kLines][kSides];  ///< From a distance of 1 on.
+  float cone_m[kConeReach + 1];        ///< From a distance of 0 on.
 };
 
-/// For each half of a word of each line, along x, then along y: its bits, a lane for each.
-struct MarkDefined {
-  const LayerTick* tick;
-  DefinedHeights defined;
+/// For each column: the lowest cone over the ground of its row (R9).
+struct SpreadCones {
+  ColumnArrays columns;
+  AllowedRises rises;
 
   __device__ void operator()(std::int32_t i) const {
-    const std::int32_t n = tick->map.n_xy, halves = 2 * defined.words;
-    const bool along_y = i >= n * halves;
-    const std::int32_t line = i % n,
-                       half = i / n % halves;  // neighbouring warps share what they read along y
-    const std::uint32_t bits = vote([&](std::int32_t lane) {
-      const std::int32_t at = half * kLanes + lane;
-      if (at >= n) return false;
-      const float height_m = tick->out.height[along_y ? at * n + line : line * n + at];
-      return height_m == height_m;
-    });
-    // Little-endian, as all machines with CUDA are.
-    auto* const out = reinterpret_cast<std::uint32_t*>(along_y ? defined.along_y : defined.along_x);
-    in_lane(0, [&] { out[line * halves + half] = bits; });
+    const float* ground_m = columns.ground_m + columns.at(i);
+    float cone_m = *ground_m;
+    GVOM_UNROLL
+    for (std::int32_t d = 1; d <= kConeReach; ++d)
+      cone_m = lower_of(cone_m, lower_of(ground_m[-d], ground_m[d]) + rises.cone_m[d]);
+    columns.cone_m[columns.at(i)] = cone_m;
   }
 };
 
-/// The offset of the set bit that is nearest to bit `at` of a line, the smaller one on a tie; kNoneInRow if
-/// none is set.
-__device__ inline std::int16_t nearest_set_bit(const std::uint64_t* line, std::int32_t words,
-                                               std::int32_t at) {
-  const std::int32_t before = last_bit_up_to(line, at);
-  const std::int32_t after = next_bit(line, words, at);
-  if (before < 0 && after < 0) return kNoneInRow;
-  if (before < 0) return static_cast<std::int16_t>(after - at);
-  if (after < 0 || at - before <= after - at) return static_cast<std::int16_t>(before - at);
-  return static_cast<std::int16_t>(after - at);
-}
-
-/// For each column: the nearest heights in its two lines (R13).
-struct FindNearest {
-  DefinedHeights defined;
-  std::int16_t* along_x;  ///< As in NearestHeights.
-  std::int16_t* along_y;
-  std::int32_t n_xy;
+/// For each column: whether its ground stands out, and whether it is a rim (R9).
+struct FindRims {
+  ColumnArrays columns;
+  AllowedRises rises;
 
   __device__ void operator()(std::int32_t i) const {
-    const std::int32_t x = i % n_xy, y = i / n_xy, words = defined.words;
-    along_x[i] = nearest_set_bit(defined.along_x + y * words, words, x);
-    along_y[i] = nearest_set_bit(defined.along_y + x * words, words, y);
+    const std::int32_t at = columns.at(i);
+    const bool out = stands_out(columns.ground_m + at);
+    columns.stands_out[at] = out ? 1 : 0;
+    columns.is_rim[at] = is_rim(columns.ground_m[at], lowest_cone_m(columns.cone_m + at), out) ? 1 : 0;
+  }
+
+ private:
+  [[nodiscard]] __device__ bool stands_out(const float* ground_m) const {
+    bool any = false;
+    GVOM_UNROLL
+    for (std::int32_t line = 0; line < kLines; ++line) {
+      const std::int32_t step = line_offset(columns.grid, line);
+      GVOM_UNROLL
+      for (std::int32_t d = 1; d <= kSides; ++d)
+        any |=
+            rises_over(*ground_m, ground_m[d * step], ground_m[-d * step], rises.over_sides_m[line][d - 1]);
+    }
+    return any;
+  }
+
+  /// From those of the rows around.
+  [[nodiscard]] __device__ float lowest_cone_m(const float* row_cone_m) const {
+    const std::int32_t pitch = columns.grid.pitch();
+    float cone_m = *row_cone_m;
+    GVOM_UNROLL
+    for (std::int32_t d = 1; d <= kConeReach; ++d)
+      cone_m = lower_of(cone_m, lower_of(row_cone_m[d * pitch], row_cone_m[-d * pitch]) + rises.cone_m[d]);
+    return cone_m;
   }
 };
 
-/// For each column: what depends on its neighbours (R12, R13), and the cost (R16).
-struct FinishColumns {
+/// For each column: its height (R9), and what stands and hangs over it (R11, R14).
+struct WriteHeights {
   const LayerTick* tick;
-  NearestHeights nearest;
+  ColumnArrays columns;
 
   __device__ void operator()(std::int32_t i) const {
     const LayerArrays& out = tick->out;
-    const ColumnParameters& p = tick->parameters;
-    const Plane plane = fit(i);
-    const double delta_m = negative(i);
-    std::uint8_t flags = out.flags[i];
-    if (plane.steep) flags |= kSteep;
-    if (delta_m > p.layers.negative_threshold_m) flags |= kNegative;
+    const std::int32_t at = columns.at(i);
+    const float ground_m = columns.ground_m[at], lowest_m = columns.lowest_m[at];
+    const bool stands_out = columns.stands_out[at] != 0;
+    const bool hangs = ground_m == kNone_m && lowest_m != kNone_m;
+    const float between_m = stands_out || hangs ? ground_between_rims(columns.ground(), at) : kNone_m;
+    const float height_m = height_of_ground_m(ground_m, lowest_m, stands_out, between_m);
+    const bool known = height_m != kNone_m;
+    out.height[i] = known ? height_m : kUnknown;
+    columns.plane_m[at] = known && ground_m != kNone_m ? height_m : kUnknown;
+    if (hangs && !known) out.visibility[i] = static_cast<std::uint8_t>(Visibility::free_only);
+    ColumnObstacles over{};
+    if (known) over = read_obstacles(tick->map, tick->parameters, columns.x(i), columns.y(i), height_m);
+    columns.obstacles[at] = over.sums;
+    out.obstacle_density[i] = known ? over.density() : kUnknown;
+    out.clearance[i] = known ? over.clearance_m : kUnknown;
+  }
+};
+
+/// For each column: obstacles by what the columns around have (R11), slope and roughness (R12), and how deep
+/// a hole shows there (R13).
+struct JudgeColumns {
+  const LayerTick* tick;
+  ColumnArrays columns;
+
+  __device__ void operator()(std::int32_t i) const {
+    const LayerArrays& out = tick->out;
+    const std::int32_t x = columns.x(i), y = columns.y(i), at = columns.at(i);
+    const Plane plane = fit(at);
     out.slope_x[i] = plane.slope_x;
     out.slope_y[i] = plane.slope_y;
     out.slope[i] = plane.slope;
     out.roughness[i] = plane.roughness;
-    out.negative_delta[i] = static_cast<float>(delta_m);
-    out.flags[i] = flags;
-    out.cost[i] =
-        column_cost(p.cost, flags, out.height[i], out.obstacle_density[i], plane.slope, plane.roughness);
+    out.flags[i] |= static_cast<std::uint8_t>((plane.steep ? kSteep : 0) | obstacles(x, y, out.height[i]));
+    double depth_m = 0;
+    if (may_hide_hole(columns.ground(), at))
+      depth_m = HoleSearch(columns.ground(), tick->holes, x, y).depth_m();
+    out.negative_delta[i] = static_cast<float>(depth_m);
+    columns.shows_hole[at] = depth_m > 0 ? 1 : 0;
   }
 
  private:
-  /// The height of a column; unknown beyond the grid.
-  __device__ float height(std::int32_t x, std::int32_t y) const {
-    const std::int32_t n = tick->map.n_xy;
-    return x < 0 || y < 0 || x >= n || y >= n ? kUnknown : tick->out.height[y * n + x];
+  [[nodiscard]] __device__ std::uint8_t obstacles(std::int32_t x, std::int32_t y, float height_m) const {
+    const ColumnGrid& grid = columns.grid;
+    const ObstacleSums* own = columns.obstacles + grid.at(x, y);
+    if (own->low_hits == 0) return 0;
+    ObstacleSums around{};
+    for (std::int32_t dy = -1; dy <= 1; ++dy)
+      for (std::int32_t dx = -1; dx <= 1; ++dx) around.add(own[dy * grid.pitch() + dx]);
+    return obstacle_flags(tick->map, grid, columns.lowest_ray_m, tick->parameters, x, y, height_m, *own,
+                          around);
   }
 
-  __device__ Plane fit(std::int32_t i) const {
-    const std::int32_t x = i % tick->map.n_xy, y = i / tick->map.n_xy;
-    const std::int32_t radius = tick->parameters.layers.plane_size / 2;
+  [[nodiscard]] __device__ Plane fit(std::int32_t at) const {
+    const ColumnParameters& p = tick->parameters;
+    const float* middle_m = columns.plane_m + at;
+    const std::int32_t radius = p.layers.plane_size / 2, pitch = columns.grid.pitch();
     PlaneSums sums{};
     for (std::int32_t dy = -radius; dy <= radius; ++dy)
-      for (std::int32_t dx = -radius; dx <= radius; ++dx) add_height(sums, dx, dy, height(x + dx, y + dy));
+      for (std::int32_t dx = -radius; dx <= radius; ++dx) add_height(sums, dx, dy, middle_m[dy * pitch + dx]);
     const PlaneFit fit = solve_plane(sums);
     double squares_m2 = 0;
     for (std::int32_t dy = -radius; dy <= radius; ++dy)
       for (std::int32_t dx = -radius; dx <= radius; ++dx)
-        squares_m2 += squared_residual(fit, dx, dy, height(x + dx, y + dy));
-    return plane_layers(fit, sums.n, squares_m2, tick->parameters.resolution_xy_m,
-                        tick->parameters.layers.slope_threshold_rad);
+        squares_m2 += squared_residual(fit, dx, dy, middle_m[dy * pitch + dx]);
+    return plane_layers(fit, sums, squares_m2, p.resolution_xy_m, p.layers.slope_threshold_rad);
   }
+};
 
-  __device__ double negative(std::int32_t i) const {
-    const std::int32_t n = tick->map.n_xy;
+/// For each column: NEGATIVE by its neighbours (R13), and the cost (R16).
+struct FinishColumns {
+  const LayerTick* tick;
+  ColumnArrays columns;
+
+  __device__ void operator()(std::int32_t i) const {
     const LayerArrays& out = tick->out;
-    if (!seen_through(out.height[i], out.inferred_height[i])) return 0;
-    std::int32_t found[kDirections];
-    for (int direction = 0; direction < kDirections; ++direction)
-      found[direction] =
-          search_cone(nearest, n, i % n, i / n, direction, tick->parameters.layers.search_distance);
-    return negative_delta(out.height, nearest, n, i, found, out.inferred_height[i]);
+    std::uint8_t flags = out.flags[i];
+    if (is_negative(columns.grid, columns.shows_hole + columns.at(i))) flags |= kNegative;
+    out.flags[i] = flags;
+    out.cost[i] = column_cost(tick->parameters.cost, flags, out.height[i], out.obstacle_density[i],
+                              out.slope[i], out.roughness[i]);
   }
 };
 

@@ -2,6 +2,7 @@
 
 #include <new>
 
+#include "core/cuda/fill.hpp"
 #include "core/cuda/launch.hpp"
 
 namespace gvom::cuda {
@@ -27,6 +28,41 @@ void for_each_layer(const LayerArrays& a, LayerArrays& b, Visit&& visit) {
   visit(a.visibility, b.visibility), visit(a.cost, b.cost);
 }
 
+// Nothing is known in any of the columns, and never in the margin.
+ColumnArrays column_arrays(Device& device, const ColumnGrid& grid) {
+  const auto size = static_cast<std::size_t>(grid.size());
+  const auto filled = [&](float value) {
+    auto* const array = device.array<float>(size);
+    for_each(device, grid.size(), Fill<float>{array, value});
+    return array;
+  };
+  const auto zeros = [&](std::size_t bytes) {
+    void* const array = device.allocate(bytes);
+    device.clear(array, bytes);
+    return array;
+  };
+  const auto flags = [&] { return static_cast<std::uint8_t*>(zeros(size)); };
+  return {grid,
+          filled(kNone_m),
+          filled(kNone_m),
+          filled(kNone_m),
+          filled(kNone_m),
+          filled(kUnknown),
+          flags(),
+          flags(),
+          flags(),
+          static_cast<ObstacleSums*>(zeros(size * sizeof(ObstacleSums)))};
+}
+
+AllowedRises allowed_rises(double resolution_m) {
+  AllowedRises rises{};
+  for (std::int32_t line = 0; line < kLines; ++line)
+    for (std::int32_t d = 1; d <= kSides; ++d)
+      rises.over_sides_m[line][d - 1] = allowed_rise_m(line, d, resolution_m);
+  for (std::int32_t d = 0; d <= kConeReach; ++d) rises.cone_m[d] = cone_rise_m(d, resolution_m);
+  return rises;
+}
+
 }  // namespace
 
 LayerMaker::LayerMaker(Device& device, const MapperConfig& config)
@@ -34,20 +70,22 @@ LayerMaker::LayerMaker(Device& device, const MapperConfig& config)
       config_(config),
       most_bytes_(kFloatLayers * aligned(columns() * sizeof(float)) + kByteLayers * aligned(columns())),
       out_(device.array<std::byte>(most_bytes_)),
+      columns_(column_arrays(device, ColumnGrid{config.map.size_xy})),
       tick_(device.array<LayerTick>(1)),
       staged_(device.pinned_array<LayerTick>(1)) {
-  const std::int32_t n = config.map.size_xy;
-  const std::int32_t words = (n + 63) / 64;
-  const std::size_t line_words = static_cast<std::size_t>(n) * static_cast<std::size_t>(words);
-  const DefinedHeights defined{device.array<std::uint64_t>(line_words),
-                               device.array<std::uint64_t>(line_words), words};
-  auto* const along_x = device.array<std::int16_t>(columns());
-  auto* const along_y = device.array<std::int16_t>(columns());
-  make_ = device.record([=, &device] {
-    for_each(device, n * n, ReadColumns{tick_});
-    for_each_warp(device, 2 * n * 2 * words, MarkDefined{tick_, defined});
-    for_each(device, n * n, FindNearest{defined, along_x, along_y, n});
-    for_each(device, n * n, FinishColumns{tick_, {along_x, along_y}});
+  record();
+}
+
+void LayerMaker::record() {
+  const auto n = static_cast<std::int32_t>(columns());
+  const AllowedRises rises = allowed_rises(config_.map.resolution_xy_m);
+  make_ = device_.record([this, n, rises] {
+    for_each(device_, n, ReadColumns{tick_, columns_});
+    for_each(device_, n, SpreadCones{columns_, rises});
+    for_each(device_, n, FindRims{columns_, rises});
+    for_each(device_, n, WriteHeights{tick_, columns_});
+    for_each(device_, n, JudgeColumns{tick_, columns_});
+    for_each(device_, n, FinishColumns{tick_, columns_});
   });
 }
 
@@ -58,7 +96,8 @@ std::size_t LayerMaker::columns() const {
 void LayerMaker::make(const FusedView& view, const LayerMoment& moment, const LayerArrays& out) {
   if (device_.failed()) return;
   if (out.bytes_in_one > most_bytes_) return device_.fail("layers are larger than there is room for");
-  new (staged_) LayerTick{view, column_parameters(config_, moment), on_device(out)};
+  const ColumnParameters parameters = column_parameters(config_, moment);
+  new (staged_) LayerTick{view, parameters, hole_parameters(parameters), on_device(out)};
   device_.upload(tick_, staged_, sizeof *staged_);
   device_.play(make_);
 }

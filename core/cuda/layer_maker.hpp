@@ -25,11 +25,13 @@ class LayerMaker {
  private:
   [[nodiscard]] LayerArrays on_device(const LayerArrays& out) const;
   [[nodiscard]] std::size_t columns() const;
+  void record();
 
   Device& device_;
   MapperConfig config_;
   std::size_t most_bytes_;
   std::byte* out_;  // where the layers are made
+  ColumnArrays columns_;
   LayerTick* tick_;
   LayerTick* staged_;  // pinned
   Device::Graph make_;
