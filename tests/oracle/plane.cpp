@@ -1,5 +1,6 @@
 #include "tests/oracle/plane.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -46,7 +47,7 @@ PlaneValues plane_through(const std::vector<HeightAt>& heights, double resolutio
   const Whole w(heights);
   const std::int64_t xx = w.n * w.xx - w.x * w.x, xy = w.n * w.xy - w.x * w.y, yy = w.n * w.yy - w.y * w.y;
   const std::int64_t determinant = xx * yy - xy * xy;
-  if (w.n < 3 || determinant <= 0) return {NAN, NAN, NAN, NAN, false};
+  if (w.n < 5 || determinant <= 0) return {NAN, NAN, NAN, NAN, false};
 
   const auto exact = [](std::int64_t whole) { return static_cast<double>(whole); };
   const double z = sum(heights, [](const HeightAt& h) { return h.z_m; });
@@ -63,9 +64,12 @@ PlaneValues plane_through(const std::vector<HeightAt>& heights, double resolutio
   });
 
   const double along_x = a / resolution_m, along_y = b / resolution_m;
-  const double slope = angle_of(std::sqrt(along_x * along_x + along_y * along_y));
-  return {static_cast<float>(along_x), static_cast<float>(along_y), static_cast<float>(slope),
-          static_cast<float>(squares_m2 / exact(w.n)), slope >= threshold_rad};
+  const double steepness = std::sqrt(along_x * along_x + along_y * along_y);
+  const double roughness = squares_m2 / exact(w.n);
+  const double spread = exact(std::min(xx, yy)) / exact(w.n);
+  const double surely = steepness - std::sqrt(roughness / spread) / resolution_m;
+  return {static_cast<float>(along_x), static_cast<float>(along_y), static_cast<float>(angle_of(steepness)),
+          static_cast<float>(roughness), surely > 0 && angle_of(surely) >= threshold_rad};
 }
 
 }  // namespace gvom::oracle

@@ -1,0 +1,34 @@
+// The ground of all columns (R9), from the text of core/README.md alone.
+#pragma once
+
+#include "core/config.hpp"
+#include "tests/oracle/columns.hpp"
+#include "tests/oracle/fusion.hpp"
+#include "tests/oracle/voxels.hpp"
+
+namespace gvom::oracle {
+
+/// What the layers are made of.
+struct FusedColumns {
+  const MapperConfig& config;
+  const VoxelBox& voxels;
+  const BufferMap& newest;             ///< Of the window: its pose and stamp are the layers'.
+  const Columns<float>& lowest_ray_m;  ///< R5a.
+
+  [[nodiscard]] ColumnVoxels column(int x, int y) const { return {config.layers, voxels, x, y}; }
+};
+
+/// Heights that are not known are +infinity.
+struct Ground {
+  Columns<float> lowest_m;  ///< `min_height` of the lowest solid voxel.
+  Columns<float> known_m;   ///< Seen or assumed ground.
+  Columns<float> height_m;
+  Columns<YesNo> assumed;
+  Columns<YesNo> rim;
+
+  explicit Ground(int n);
+};
+
+Ground find_ground(const FusedColumns& map);
+
+}  // namespace gvom::oracle

@@ -1,0 +1,152 @@
+#include "tests/oracle/holes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace gvom::oracle {
+
+namespace {
+
+struct RimHeight {
+  int k;
+  double z_m;
+};
+
+// A line fitted to heights over whole numbers.
+struct Fit {
+  bool defined = false;
+  double slope_m = 0, first_m = 0, rms_m = 0;
+
+  explicit Fit(const std::vector<RimHeight>& rims) {
+    std::int64_t n = 0, k = 0, kk = 0;
+    double z = 0, kz = 0, zz = 0;
+    for (const RimHeight& rim : rims) {
+      n += 1, k += rim.k, kk += std::int64_t{rim.k} * rim.k;
+      z += rim.z_m, kz += rim.k * rim.z_m, zz += rim.z_m * rim.z_m;
+    }
+    const std::int64_t determinant = n * kk - k * k;
+    defined = n >= 3 && determinant > 0;
+    if (!defined) return;
+    slope_m = (double(n) * kz - double(k) * z) / double(determinant);
+    first_m = (z - slope_m * double(k)) / double(n);
+    rms_m = std::sqrt(std::max((zz - first_m * z - slope_m * kz) / double(n), 0.0));
+  }
+
+  [[nodiscard]] bool good(double step_m) const {
+    return defined && rms_m <= 0.1 && std::abs(slope_m) <= 0.546 * step_m;
+  }
+};
+
+class Search {
+ public:
+  Search(const FusedColumns& map, const Ground& ground, const ColumnAt& column, const ColumnAt& vehicle)
+      : ground_(ground),
+        reach_(map.config.layers.search_distance),
+        threshold_m_(map.config.layers.negative_threshold_m),
+        line_(column, vehicle),
+        step_m_(line_.step_m(map.config.map.resolution_xy_m)),
+        range_m_(line_.length() * step_m_),
+        lowest_ray_m_(double{map.lowest_ray_m.at(column.x, column.y)}) {}
+
+  // The larger difference that shows, or 0.
+  double depth_m() {
+    if (!find_rim()) return 0;
+    std::vector<RimHeight> near;
+    near_steps_ = collect(near, 0, 4, [&](int k) { return rim_step_ + k; });
+    const Fit near_line(near);
+    const double reached_m = near.back().k * step_m_;
+    return std::max(hole_m(near_line), edge_m(near_line, reached_m));
+  }
+
+ private:
+  bool find_rim() {
+    for (int step = 1; step <= std::min(reach_, line_.length()); ++step)
+      for (const ColumnAt& at : line_.abreast(step)) {
+        if (ground_.rim.at(at.x, at.y) == YesNo::no) continue;
+        rim_step_ = step;
+        rim_m_ = double{ground_.known_m.at(at.x, at.y)};
+        return true;
+      }
+    return false;
+  }
+
+  void add_rims(std::vector<RimHeight>& rims, int k, int step) const {
+    for (const ColumnAt& at : line_.abreast(step))
+      if (ground_.rim.at(at.x, at.y) == YesNo::yes)
+        rims.push_back({k, double{ground_.known_m.at(at.x, at.y)} - rim_m_});
+  }
+
+  // From `first` to `last`, and on to 15 while there are fewer than three. Returns where it ended.
+  template <class Step>
+  int collect(std::vector<RimHeight>& rims, int first, int last, Step&& step) const {
+    int k = first;
+    for (; k <= last || (k <= 15 && rims.size() < 3); ++k) add_rims(rims, k, step(k));
+    return k;
+  }
+
+  [[nodiscard]] int first_ground_beyond() const {
+    for (int step = 1; step <= reach_; ++step)
+      for (const ColumnAt& at : line_.abreast(-step))
+        if (ground_.known_m.at(at.x, at.y) < INFINITY) return step;
+    return 0;
+  }
+
+  [[nodiscard]] double hole_m(const Fit& near) const {
+    const int beyond = first_ground_beyond();
+    if (beyond == 0) return 0;
+    std::vector<RimHeight> rims;
+    collect(rims, 1, 8, [&](int k) { return -(beyond + k); });
+    const Fit far(rims);
+    if (!far.good(step_m_)) return 0;
+    const double due_m = rim_m_ + far.first_m * rim_step_ / (rim_step_ + beyond);
+    const double shows_m = 0.16 * threshold_m_ + 0.002 * range_m_ + 0.5 * (far.rms_m + near.rms_m);
+    return due_m - lowest_ray_m_ > shows_m ? due_m - lowest_ray_m_ : 0;
+  }
+
+  [[nodiscard]] double edge_m(const Fit& near, double reached_m) const {
+    if (rim_step_ > 2 * reach_ / 5 || !near.good(step_m_)) return 0;
+    std::vector<RimHeight> rims;
+    for (int k = near_steps_; k < near_steps_ + 8; ++k) add_rims(rims, k, rim_step_ + k);
+    const Fit earlier(rims);
+    double away_m = -near.slope_m;
+    if (earlier.defined && -earlier.slope_m > away_m) away_m = away_m - 2 * (-earlier.slope_m - away_m);
+    const double due_m = rim_m_ + std::min(near.first_m, 0.0) + std::min(away_m, 0.0) * rim_step_;
+    const double level_m = 0.4 * threshold_m_ + 0.004 * range_m_ + 0.5 * near.rms_m;
+    const double carried_m = (0.05 + 0.01 * reached_m) * (rim_step_ * step_m_);
+    return due_m - lowest_ray_m_ > std::max(level_m, carried_m) ? due_m - lowest_ray_m_ : 0;
+  }
+
+  const Ground& ground_;
+  int reach_;
+  double threshold_m_;
+  SightLine line_;
+  double step_m_, range_m_, lowest_ray_m_;
+  int rim_step_ = 0, near_steps_ = 0;
+  double rim_m_ = 0;
+};
+
+}  // namespace
+
+void find_holes(const FusedColumns& map, const Ground& ground, const ColumnAt& vehicle, Layers& out) {
+  Columns<YesNo> shows(out.n, YesNo::no);
+  each_column(out.n, [&](int x, int y) {
+    out.negative_delta[out.index(x, y)] = 0;
+    if (ground.known_m.at(x, y) < INFINITY || std::isinf(map.lowest_ray_m.at(x, y))) return;
+    if (x == vehicle.x && y == vehicle.y) return;
+    const double depth_m = Search(map, ground, {x, y}, vehicle).depth_m();
+    out.negative_delta[out.index(x, y)] = static_cast<float>(depth_m);
+    if (depth_m > 0) shows.set(x, y, YesNo::yes);
+  });
+  each_column(out.n, [&](int x, int y) {
+    if (shows.at(x, y) == YesNo::no) return;
+    int neighbours = 0;
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dx = -1; dx <= 1; ++dx)
+        if ((dx != 0 || dy != 0) && shows.at(x + dx, y + dy) == YesNo::yes) ++neighbours;
+    if (neighbours >= 2) out.flags[out.index(x, y)] |= kNegative;
+  });
+}
+
+}  // namespace gvom::oracle

@@ -1,0 +1,144 @@
+#include "tests/oracle/obstacles.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace gvom::oracle {
+
+namespace {
+
+// Of a column's obstacle voxels, and of its low ones.
+struct Sums {
+  std::uint64_t hits = 0, rays = 0, voxels = 0, low_hits = 0;
+};
+
+class Obstacles {
+ public:
+  Obstacles(const FusedColumns& map, const Ground& ground, const ColumnAt& vehicle)
+      : map_(map), layers_(map.config.layers), ground_(ground), vehicle_(vehicle), sums_(ground.rim.n(), {}) {
+    each_column(sums_.n(), [&](int x, int y) { sums_.set(x, y, sums_of(x, y)); });
+  }
+
+  [[nodiscard]] float density(int x, int y) const {
+    const Sums own = sums_.at(x, y);
+    return own.hits == 0 ? 0 : static_cast<float>(double(own.hits) / double(own.rays));
+  }
+
+  [[nodiscard]] float clearance_m(int x, int y) const {
+    const ColumnVoxels column = map_.column(x, y);
+    for (int z = 0; z < column.count(); ++z)
+      if (column.occupied(z) && over_ground_m(x, y, z) > layers_.max_obstacle_height_m)
+        return static_cast<float>(over_ground_m(x, y, z));
+    return INFINITY;
+  }
+
+  [[nodiscard]] std::uint8_t flag(int x, int y) const {
+    const Sums own = sums_.at(x, y), around = sums_around(x, y);
+    if (own.low_hits == 0) return 0;
+    if (around.low_hits >= 10 && casts_shadow(x, y)) return kHard;
+    if (own.hits == 0) return 0;
+    if (around.hits < 4 || double(around.hits) < 0.1 * double(around.rays)) return kSoft;
+    return is_dense(around) || is_tall(x, y) ? kHard : kSoft;
+  }
+
+ private:
+  [[nodiscard]] bool has_height(int x, int y) const { return ground_.height_m.at(x, y) < INFINITY; }
+
+  [[nodiscard]] double over_ground_m(int x, int y, int z) const {
+    return double{map_.column(x, y).at(z).min_height_m} - double{ground_.height_m.at(x, y)};
+  }
+
+  [[nodiscard]] Sums sums_of(int x, int y) const {
+    Sums sums;
+    if (!has_height(x, y)) return sums;
+    const ColumnVoxels column = map_.column(x, y);
+    for (int z = 0; z < column.count(); ++z) {
+      if (!column.occupied(z)) continue;
+      const double over_m = over_ground_m(x, y, z);
+      if (over_m > layers_.max_obstacle_height_m) continue;
+      if (over_m >= layers_.min_obstacle_height_m - 0.1) sums.low_hits += column.at(z).hits;
+      if (over_m < layers_.min_obstacle_height_m) continue;
+      sums.hits += column.at(z).hits;
+      sums.rays += std::uint64_t{column.at(z).hits} + column.at(z).passes;
+      sums.voxels += 1;
+    }
+    return sums;
+  }
+
+  [[nodiscard]] Sums sums_around(int x, int y) const {
+    Sums total;
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dx = -1; dx <= 1; ++dx) {
+        const Sums one = sums_.at(x + dx, y + dy);
+        total.hits += one.hits, total.rays += one.rays;
+        total.voxels += one.voxels, total.low_hits += one.low_hits;
+      }
+    return total;
+  }
+
+  [[nodiscard]] bool casts_shadow(int x, int y) const {
+    const SightLine line({x, y}, vehicle_);
+    if (line.length() == 0) return false;
+    for (int behind = 1; behind <= 4; ++behind) {
+      const ColumnAt at = line.at(-behind);
+      if (!sums_.inside(at.x, at.y)) return false;
+      const double ray_over_m = double{map_.lowest_ray_m.at(at.x, at.y)} - double{ground_.height_m.at(x, y)};
+      if (ray_over_m >= layers_.min_obstacle_height_m) return true;
+    }
+    return false;
+  }
+
+  [[nodiscard]] bool is_dense(const Sums& around) const {
+    if (around.rays <= around.voxels) return false;
+    const double stopped = double(around.hits - around.voxels), all = double(around.rays - around.voxels);
+    return stopped >= layers_.density_threshold * all;
+  }
+
+  // The highest `min_height` of the layer z in the 3 x 3 columns; -infinity if it is empty.
+  [[nodiscard]] double layer_m(int x, int y, int z) const {
+    double highest_m = -INFINITY;
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dx = -1; dx <= 1; ++dx) {
+        if (!sums_.inside(x + dx, y + dy)) continue;
+        const ColumnVoxels column = map_.column(x + dx, y + dy);
+        if (column.occupied(z)) highest_m = std::max(highest_m, double{column.at(z).min_height_m});
+      }
+    return highest_m;
+  }
+
+  [[nodiscard]] bool is_tall(int x, int y) const {
+    const ColumnVoxels column = map_.column(x, y);
+    int z = 0;
+    while (!column.occupied(z) || over_ground_m(x, y, z) < layers_.min_obstacle_height_m) ++z;
+    double top_m = layer_m(x, y, z);
+    for (int empty = 0; empty <= 1;) {
+      const double next_m = layer_m(x, y, ++z);
+      empty = std::isinf(next_m) ? empty + 1 : 0;
+      if (empty == 0) top_m = next_m;
+    }
+    return top_m - double{ground_.height_m.at(x, y)} >=
+           layers_.max_obstacle_height_m - map_.config.map.resolution_z_m;
+  }
+
+  const FusedColumns& map_;
+  const LayersConfig& layers_;
+  const Ground& ground_;
+  ColumnAt vehicle_;
+  Columns<Sums> sums_;
+};
+
+}  // namespace
+
+void find_obstacles(const FusedColumns& map, const Ground& ground, const ColumnAt& vehicle, Layers& out) {
+  const Obstacles obstacles(map, ground, vehicle);
+  each_column(out.n, [&](int x, int y) {
+    const std::size_t i = out.index(x, y);
+    const bool known = ground.height_m.at(x, y) < INFINITY;
+    out.obstacle_density[i] = known ? obstacles.density(x, y) : NAN;
+    out.clearance[i] = known ? obstacles.clearance_m(x, y) : NAN;
+    if (known) out.flags[i] |= obstacles.flag(x, y);
+  });
+}
+
+}  // namespace gvom::oracle
