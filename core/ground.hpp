@@ -37,9 +37,11 @@ GVOM_HD inline float allowed_rise_m(std::int32_t line, std::int32_t distance, do
   return static_cast<float>(kStandsOut_m + kCurvature_per_m * square);
 }
 
-/// Whether ground of height `z_m` is higher by more than `allowed_m` than both; an unknown one is higher.
+/// Whether known ground of height `z_m` is higher by more than `allowed_m` than both; an unknown one is
+/// higher.
 GVOM_HD inline bool rises_over(float z_m, float one_m, float other_m, float allowed_m) {
-  return z_m > (one_m > other_m ? one_m : other_m) + allowed_m;
+  const float limit_m = (one_m > other_m ? one_m : other_m) + allowed_m;
+  return (static_cast<int>(z_m > limit_m) & static_cast<int>(z_m < kNone_m)) != 0;
 }
 
 /// Height of the cone over ground `distance` columns off along an axis.

@@ -56,12 +56,15 @@ void read_column(const FusedColumns& map, int x, int y, Ground& ground) {
   const float lowest_m = column.at(lowest).min_height_m;
   const float ray_m = map.lowest_ray_m.at(x, y);
   ground.lowest_m.set(x, y, lowest_m);
-  if (!hangs(column, lowest, ray_m)) ground.known_m.set(x, y, lowest_m - ray_m > 0.1f ? ray_m : lowest_m);
+  if (hangs(column, lowest, ray_m)) return;
+  const float over_ray_m = lowest_m - ray_m;
+  ground.known_m.set(x, y, over_ray_m > 0.1f && over_ray_m <= 0.3f ? ray_m : lowest_m);
 }
 
-// 4. Ground that is not known is higher than any.
+// 4.
 bool stands_out(const Columns<float>& known_m, int x, int y, double edge_m) {
   const float here_m = known_m.at(x, y);
+  if (here_m == kUnknown_m) return false;
   for (const Line& line : kFourLines)
     for (int d = 1; d <= 8; ++d) {
       const float before_m = known_m.at(x - d * line.dx, y - d * line.dy);

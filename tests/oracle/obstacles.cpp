@@ -38,7 +38,7 @@ class Obstacles {
     if (own.low_hits == 0) return 0;
     if (around.low_hits >= 10 && casts_shadow(x, y)) return kHard;
     if (own.hits == 0) return 0;
-    if (around.hits < 4 || double(around.hits) < 0.1 * double(around.rays)) return kSoft;
+    if (around.hits < 4 || double(around.hits) < 0.08 * double(around.rays)) return kSoft;
     return is_dense(around) || is_tall(x, y) ? kHard : kSoft;
   }
 
@@ -80,13 +80,14 @@ class Obstacles {
   [[nodiscard]] bool casts_shadow(int x, int y) const {
     const SightLine line({x, y}, vehicle_);
     if (line.length() == 0) return false;
+    int dark = 0;
     for (int behind = 1; behind <= 4; ++behind) {
       const ColumnAt at = line.at(-behind);
       if (!sums_.inside(at.x, at.y)) return false;
       const double ray_over_m = double{map_.lowest_ray_m.at(at.x, at.y)} - double{ground_.height_m.at(x, y)};
-      if (ray_over_m >= layers_.min_obstacle_height_m) return true;
+      if (ray_over_m >= layers_.min_obstacle_height_m) ++dark;
     }
-    return false;
+    return dark >= 2;
   }
 
   [[nodiscard]] bool is_dense(const Sums& around) const {
