@@ -69,8 +69,8 @@ double layers_bytes(const Grid& grid, const LayerArrays& layers) {
   const auto grounds = std::count(layers.visibility, layers.visibility + columns,
                                   static_cast<std::uint8_t>(Visibility::ground_seen));
   const int mask_words = (grid.size[2] + 63) / 64;
-  return static_cast<double>(columns) * (2 * 8.0 * mask_words + 8.0) + static_cast<double>(grounds) * 4.0 +
-         static_cast<double>(layers.bytes_in_one);
+  return static_cast<double>(columns) * (2 * 8.0 * mask_words + 8.0 + 4.0) +
+         static_cast<double>(grounds) * 12.0 + static_cast<double>(layers.bytes_in_one);
 }
 
 }  // namespace

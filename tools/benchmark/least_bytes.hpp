@@ -27,8 +27,9 @@ inline constexpr const char* kLeastBytesWords =
     "passes, minimum) are read and written, 2 bits a voxel (occupied, free) written; of the columns through "
     "these, the last-seen stamp is read and written. Of the bricks that enter as the grid moves, 12 bytes a "
     "voxel are written, and what the window's other maps have there is read, but for their records.\n"
-    "- layers: of each column, both masks and the stamp are read, and the minimum of its ground; each layer "
-    "is written once.\n"
+    "- layers: of each column, both masks, the stamp and the lowest ray are read, and hits, passes and "
+    "minimum "
+    "of its ground; each layer is written once.\n"
     "- download: the layers.\n";
 
 /// Of the tick whose map `window` took last, the newest, and whose layers are `layers`.
