@@ -68,8 +68,10 @@ PlaneValues plane_through(const std::vector<HeightAt>& heights, double resolutio
   const double roughness = squares_m2 / exact(w.n);
   const double spread = exact(std::min(xx, yy)) / exact(w.n);
   const double surely = steepness - std::sqrt(roughness / spread) / resolution_m;
-  return {static_cast<float>(along_x), static_cast<float>(along_y), static_cast<float>(angle_of(steepness)),
-          static_cast<float>(roughness), surely > 0 && angle_of(surely) >= threshold_rad};
+  const double slope = angle_of(steepness);
+  return {static_cast<float>(along_x), static_cast<float>(along_y), static_cast<float>(slope),
+          static_cast<float>(roughness),
+          slope >= threshold_rad && surely > 0 && angle_of(surely) >= threshold_rad};
 }
 
 }  // namespace gvom::oracle
