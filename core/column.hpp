@@ -150,7 +150,8 @@ inline HoleParameters hole_parameters(const ColumnParameters& p) {
           reach,
           reach * 2 / 5,
           p.vehicle_column_x,
-          p.vehicle_column_y};
+          p.vehicle_column_y,
+          pit_depths(p.resolution_xy_m, p.layers.negative_threshold_m)};
 }
 
 /// One byte of cost from a column's layers (R16).

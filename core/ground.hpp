@@ -31,10 +31,14 @@ GVOM_HD inline std::int32_t line_offset(const ColumnGrid& grid, std::int32_t lin
   return line == 0 ? 1 : line == 1 ? grid.pitch() : line == 2 ? grid.pitch() + 1 : 1 - grid.pitch();
 }
 
+/// How much ground may bend between columns `distance` off on both sides, metres.
+GVOM_HD inline double curved_rise_m(std::int32_t line, std::int32_t distance, double resolution_m) {
+  return kCurvature_per_m * ((distance * resolution_m) * (distance * resolution_m) * (line < 2 ? 1 : 2));
+}
+
 /// How much higher than the ground `distance` columns off on both sides ground may be.
 GVOM_HD inline float allowed_rise_m(std::int32_t line, std::int32_t distance, double resolution_m) {
-  const double square = (distance * resolution_m) * (distance * resolution_m) * (line < 2 ? 1 : 2);
-  return static_cast<float>(kStandsOut_m + kCurvature_per_m * square);
+  return static_cast<float>(kStandsOut_m + curved_rise_m(line, distance, resolution_m));
 }
 
 /// Whether known ground of height `z_m` is higher by more than `allowed_m` than both; an unknown one is

@@ -84,6 +84,36 @@ GVOM_HD inline RimFit solve_rims(const RimLine& s) {
   return {first, slope, std::sqrt(squares > 0 ? squares / s.n : 0), true};
 }
 
+/// Seen ground shows a pit if it is lower than the rims on both sides, 1 .. `kPitSides` columns off on a line,
+/// by this share of `negative_threshold` and by what the curvature of ground allows.
+inline constexpr std::int32_t kPitSides = 3;
+inline constexpr double kPitShare = 0.3;
+
+/// By how much at least, metres: of one configuration.
+struct PitDepths {
+  float least_m[kLines][kPitSides];  ///< From a distance of 1 on.
+};
+
+GVOM_HD inline PitDepths pit_depths(double resolution_m, double negative_threshold_m) {
+  PitDepths depths{};
+  for (std::int32_t line = 0; line < kLines; ++line)
+    for (std::int32_t d = 1; d <= kPitSides; ++d)
+      depths.least_m[line][d - 1] = static_cast<float>(kPitShare * negative_threshold_m +
+                                                       curved_rise_m(line, d, resolution_m));
+  return depths;
+}
+
+/// Height of a rim, or lower than all: what is no rim is no side of a pit.
+GVOM_HD inline float rim_height_m(float ground_m, bool is_rim) {
+  return is_rim ? ground_m : -kNone_m;
+}
+
+/// How deep known ground lies below the lower of two rims, or 0.
+GVOM_HD inline float pit_depth_m(float ground_m, float before_m, float after_m, float least_m) {
+  const float depth_m = lower_of(before_m, after_m) - ground_m;
+  return depth_m > least_m ? depth_m : 0;
+}
+
 /// Numbers of R13 that depend on the configuration.
 struct HoleParameters {
   double resolution_m;
@@ -92,6 +122,7 @@ struct HoleParameters {
   std::int32_t reach;                 ///< Steps to a rim, and to the ground beyond.
   std::int32_t edge_reach;            ///< Steps to the rim of an edge.
   std::int32_t vehicle_x, vehicle_y;  ///< The vehicle's column.
+  PitDepths pits;
 };
 
 inline constexpr double kHoleShare = 0.16;  ///< Of `negative_threshold`.
@@ -254,12 +285,17 @@ GVOM_HD inline bool may_hide_hole(const GroundView& view, std::int32_t at) {
   return view.lowest_ray_m[at] != kNone_m && view.ground_m[at] == kNone_m;
 }
 
-/// NEGATIVE (R13): a hole shows in this column and in its neighbours. @param shows 1 or 0, at the column
-GVOM_HD inline bool is_negative(const ColumnGrid& grid, const std::uint8_t* shows) {
-  if (*shows == 0) return false;
+/// NEGATIVE (R13): a hole shows in this column, in one abreast of it and in another one around it. @param
+/// shows 1 or 0, of all columns
+GVOM_HD inline bool is_negative(const ColumnGrid& grid, const std::uint8_t* shows, const HoleParameters& p,
+                                std::int32_t x, std::int32_t y) {
+  const std::uint8_t* own = shows + grid.at(x, y);
+  if (*own == 0) return false;
+  const std::int32_t beside = SightLine(x, y, p.vehicle_x, p.vehicle_y).beside(grid);
+  if (own[beside] + own[-beside] == 0) return false;
   std::int32_t neighbours = -1;
   for (std::int32_t dy = -1; dy <= 1; ++dy)
-    for (std::int32_t dx = -1; dx <= 1; ++dx) neighbours += shows[dy * grid.pitch() + dx];
+    for (std::int32_t dx = -1; dx <= 1; ++dx) neighbours += own[dy * grid.pitch() + dx];
   return neighbours >= kLeastNeighbours;
 }
 

@@ -12,11 +12,13 @@
 namespace gvom {
 
 inline constexpr std::uint32_t kLeastHits = 4;     ///< Of obstacle voxels in the 3 x 3 columns.
-inline constexpr double kLeastDensity = 0.08;      ///< Of these: dust and rain are thinner.
+inline constexpr double kLeastDensity = 0.0625;    ///< Of these, less one hit each: dust is thinner.
 inline constexpr std::uint32_t kShadowHits = 10;   ///< In the 3 x 3 columns, for what casts a shadow.
 inline constexpr double kLowObstacle_m = 0.1;      ///< Hits so far below an obstacle's height may cast it.
-inline constexpr std::int32_t kLeastDark = 2;      ///< Of the columns behind it.
 inline constexpr std::int32_t kShadowColumns = 4;  ///< Behind the column.
+inline constexpr std::int32_t kLeastDark = 2;      ///< Of these, behind what is high.
+inline constexpr double kLowShadow = 0.7;          ///< Of `min_obstacle_height`: so high is a low one's at least.
+inline constexpr double kFalls_m = 0.2;            ///< So much lower is its end.
 
 /// Sums over a column's obstacle voxels.
 struct ObstacleSums {
@@ -122,21 +124,60 @@ GVOM_HD inline bool is_tall(const FusedView& map, const ColumnParameters& p, std
   return top_m - ground >= p.layers.max_obstacle_height_m - p.resolution_z_m;
 }
 
-/// Whether rays were kept from the columns behind this one, as seen from the vehicle, up to the height of an
-/// obstacle: from most of them, for a beam's gap is narrow.
-GVOM_HD inline bool casts_shadow(const ColumnGrid& grid, const float* lowest_ray_m, const ColumnParameters& p,
-                                 std::int32_t x, std::int32_t y, float ground_m) {
-  const SightLine line(x, y, p.vehicle_column_x, p.vehicle_column_y);
-  if (line.columns() == 0) return false;
-  std::int32_t dark = 0;
-  for (std::int32_t behind = 1; behind <= kShadowColumns; ++behind) {
-    const std::int32_t at = line.at(grid, -behind);
-    if (at < 0) return false;
-    const double above_m = static_cast<double>(lowest_ray_m[at]) - static_cast<double>(ground_m);
-    dark += above_m >= p.layers.min_obstacle_height_m ? 1 : 0;
+/// How high above the ground of a column rays have left it and the columns behind it, as seen from the
+/// vehicle.
+class Shadow {
+ public:
+  GVOM_HD Shadow(const ColumnGrid& grid, const float* lowest_ray_m, const ColumnParameters& p, std::int32_t x,
+                 std::int32_t y, float ground_m)
+      : lowest_ray_m_(lowest_ray_m),
+        ground_m_(static_cast<double>(ground_m)),
+        obstacle_m_(p.layers.min_obstacle_height_m) {
+    const SightLine line(x, y, p.vehicle_column_x, p.vehicle_column_y);
+    beside_ = line.beside(grid);
+    in_grid_ = line.columns() > 0;
+    for (std::int32_t behind = 0; behind <= kShadowColumns; ++behind) {
+      at_[behind] = line.at(grid, -behind);
+      in_grid_ = in_grid_ && at_[behind] >= 0;
+    }
   }
-  return dark >= kLeastDark;
-}
+
+  /// Rays were kept from most of the columns behind it up to the height of an obstacle: a beam's gap is
+  /// narrow.
+  [[nodiscard]] GVOM_HD bool is_high() const {
+    if (!in_grid_) return false;
+    std::int32_t dark = 0;
+    for (std::int32_t behind = 1; behind <= kShadowColumns; ++behind)
+      dark += height_m(at_[behind]) >= obstacle_m_ ? 1 : 0;
+    return dark >= kLeastDark;
+  }
+
+  /// Rays were kept from this column and the next one, or from two abreast of these, up to most of the height
+  /// of an obstacle, and come down again behind: there is a rock. Behind a bush fewer and fewer come down.
+  [[nodiscard]] GVOM_HD bool is_low() const {
+    if (!in_grid_) return false;
+    for (std::int32_t aside = -beside_; aside <= beside_; aside += beside_) {
+      const double own_m = height_m(at_[0] + aside), next_m = height_m(at_[1] + aside);
+      if (own_m == static_cast<double>(kNone_m) || next_m == static_cast<double>(kNone_m)) continue;
+      const double top_m = own_m > next_m ? own_m : next_m;
+      if (top_m >= kLowShadow * obstacle_m_ && height_m(at_[kShadowColumns] + aside) < top_m - kFalls_m)
+        return true;
+    }
+    return false;
+  }
+
+ private:
+  [[nodiscard]] GVOM_HD double height_m(std::int32_t at) const {
+    return static_cast<double>(lowest_ray_m_[at]) - ground_m_;
+  }
+
+  const float* lowest_ray_m_;
+  double ground_m_;
+  double obstacle_m_;
+  std::int32_t beside_;
+  std::int32_t at_[kShadowColumns + 1];
+  bool in_grid_;
+};
 
 /// Flags of a column with known ground (R11). @param own its own sums, @param around those of the 3 x 3
 /// columns
@@ -144,13 +185,15 @@ GVOM_HD inline std::uint8_t obstacle_flags(const FusedView& map, const ColumnGri
                                            const float* lowest_ray_m, const ColumnParameters& p,
                                            std::int32_t x, std::int32_t y, float ground_m,
                                            const ObstacleSums& own, const ObstacleSums& around) {
-  if (own.low_hits == 0) return 0;
-  if (around.low_hits >= kShadowHits && casts_shadow(grid, lowest_ray_m, p, x, y, ground_m)) return kHard;
+  if (around.low_hits >= kShadowHits) {
+    const Shadow shadow(grid, lowest_ray_m, p, x, y, ground_m);
+    if ((own.low_hits > 0 && shadow.is_high()) || shadow.is_low()) return kHard;
+  }
   if (own.hits == 0) return 0;
-  const auto hits = static_cast<double>(around.hits), rays = static_cast<double>(around.rays);
-  const auto voxels = static_cast<double>(around.voxels);
-  if (around.hits < kLeastHits || hits < kLeastDensity * rays) return kSoft;
-  const bool dense = rays > voxels && hits - voxels >= p.layers.density_threshold * (rays - voxels);
+  const double spare_hits = static_cast<double>(around.hits) - around.voxels;
+  const double spare_rays = static_cast<double>(around.rays) - around.voxels;
+  if (around.hits < kLeastHits || spare_hits < kLeastDensity * spare_rays) return kSoft;
+  const bool dense = spare_rays > 0 && spare_hits >= p.layers.density_threshold * spare_rays;
   return dense || is_tall(map, p, x, y, ground_m) ? kHard : kSoft;
 }
 

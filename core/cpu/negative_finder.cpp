@@ -1,21 +1,71 @@
 #include "core/cpu/negative_finder.hpp"
 
+#include <algorithm>
+
+#include "core/cpu/clones.hpp"
+
 namespace gvom::cpu {
+
+namespace {
+
+// The formulas of core/negative.hpp over the columns of a row.
+
+GVOM_CLONES void read_rims(const float* ground_m, const std::uint8_t* is_rim, std::int32_t n, float* rim_m) {
+  GVOM_INDEPENDENT
+  for (std::int32_t x = 0; x < n; ++x) rim_m[x] = rim_height_m(ground_m[x], is_rim[x] != 0);
+}
+
+GVOM_CLONES void deepen(const float* ground_m, const float* rim_m, std::int32_t offset, float least_m,
+                        std::int32_t n, float* depth_m) {
+  const float* after_m = rim_m + offset;
+  const float* before_m = rim_m - offset;
+  GVOM_INDEPENDENT
+  for (std::int32_t x = 0; x < n; ++x) {
+    const float pit_m = pit_depth_m(ground_m[x], before_m[x], after_m[x], least_m);
+    depth_m[x] = pit_m > depth_m[x] ? pit_m : depth_m[x];
+  }
+}
+
+}  // namespace
+
+NegativeFinder::NegativeFinder(std::int32_t n_xy) {
+  const auto size = static_cast<std::size_t>(ColumnGrid{n_xy}.size());
+  rim_m_.resize(size, -kNone_m);
+  shows_.resize(size);
+}
 
 void NegativeFinder::find(const ColumnParameters& p, const GroundView& ground, const LayerArrays& out) {
   const ColumnGrid& grid = ground.grid;
   const HoleParameters holes = hole_parameters(p);
+  find_pits(holes, ground, out);
   for (std::int32_t y = 0, i = 0; y < grid.n_xy; ++y)
     for (std::int32_t x = 0; x < grid.n_xy; ++x, ++i) {
       const std::int32_t at = grid.at(x, y);
-      double depth_m = 0;
-      if (may_hide_hole(ground, at)) depth_m = HoleSearch(ground, holes, x, y).depth_m();
-      out.negative_delta[i] = static_cast<float>(depth_m);
-      shows_[static_cast<std::size_t>(at)] = depth_m > 0 ? 1 : 0;
+      if (may_hide_hole(ground, at))
+        out.negative_delta[i] = static_cast<float>(HoleSearch(ground, holes, x, y).depth_m());
+      shows_[static_cast<std::size_t>(at)] = out.negative_delta[i] > 0 ? 1 : 0;
     }
   for (std::int32_t y = 0, i = 0; y < grid.n_xy; ++y)
     for (std::int32_t x = 0; x < grid.n_xy; ++x, ++i)
-      if (is_negative(grid, shows_.data() + grid.at(x, y))) out.flags[i] |= kNegative;
+      if (is_negative(grid, shows_.data(), holes, x, y)) out.flags[i] |= kNegative;
+}
+
+void NegativeFinder::find_pits(const HoleParameters& holes, const GroundView& ground,
+                               const LayerArrays& out) {
+  const std::int32_t n = ground.grid.n_xy;
+  for (std::int32_t y = 0; y < n; ++y) {
+    const std::int32_t row = ground.grid.at(0, y);
+    read_rims(ground.ground_m + row, ground.is_rim + row, n, rim_m_.data() + row);
+  }
+  for (std::int32_t y = 0; y < n; ++y) {
+    const std::int32_t row = ground.grid.at(0, y);
+    float* const depth_m = out.negative_delta + y * n;
+    std::fill_n(depth_m, n, 0.0F);
+    for (std::int32_t line = 0; line < kLines; ++line)
+      for (std::int32_t d = 1; d <= kPitSides; ++d)
+        deepen(ground.ground_m + row, rim_m_.data() + row, d * line_offset(ground.grid, line),
+               holes.pits.least_m[line][d - 1], n, depth_m);
+  }
 }
 
 }  // namespace gvom::cpu

@@ -1,17 +1,44 @@
 #include "core/cpu/obstacle_finder.hpp"
 
+#include "core/cpu/clones.hpp"
+
 namespace gvom::cpu {
+
+namespace {
+
+GVOM_CLONES void look_around(const std::uint8_t* low, std::int32_t pitch, std::int32_t n,
+                             std::uint8_t* low_near) {
+  GVOM_INDEPENDENT
+  for (std::int32_t x = 0; x < n; ++x) {
+    const std::uint8_t* row = low + x;
+    const int before = row[-pitch - 1] | row[-pitch] | row[-pitch + 1];
+    const int here = row[-1] | row[0] | row[1];
+    const int after = row[pitch - 1] | row[pitch] | row[pitch + 1];
+    low_near[x] = static_cast<std::uint8_t>(before | here | after);
+  }
+}
+
+}  // namespace
+
+ObstacleFinder::ObstacleFinder(std::int32_t n_xy) {
+  const auto size = static_cast<std::size_t>(ColumnGrid{n_xy}.size());
+  sums_.resize(size);
+  low_.resize(size);
+  low_near_.resize(static_cast<std::size_t>(n_xy));
+}
 
 void ObstacleFinder::read_columns(const FusedView& map, const ColumnParameters& p, const ColumnGrid& grid,
                                   const LayerArrays& out) {
   for (std::int32_t y = 0, i = 0; y < grid.n_xy; ++y)
     for (std::int32_t x = 0; x < grid.n_xy; ++x, ++i) {
-      ObstacleSums& sums = sums_[static_cast<std::size_t>(grid.at(x, y))];
-      sums = {};
+      const auto at = static_cast<std::size_t>(grid.at(x, y));
+      sums_[at] = {};
+      low_[at] = 0;
       out.obstacle_density[i] = out.clearance[i] = kUnknown;
       if (std::isnan(out.height[i])) continue;
       const ColumnObstacles column = read_obstacles(map, p, x, y, out.height[i]);
-      sums = column.sums;
+      sums_[at] = column.sums;
+      low_[at] = column.sums.low_hits > 0 ? 1 : 0;
       out.obstacle_density[i] = column.density();
       out.clearance[i] = column.clearance_m;
     }
@@ -21,15 +48,17 @@ void ObstacleFinder::find(const FusedView& map, const ColumnParameters& p, const
                           const LayerArrays& out) {
   const ColumnGrid& grid = ground.grid;
   read_columns(map, p, grid, out);
-  for (std::int32_t y = 0, i = 0; y < grid.n_xy; ++y)
+  for (std::int32_t y = 0, i = 0; y < grid.n_xy; ++y) {
+    look_around(low_.data() + grid.at(0, y), grid.pitch(), grid.n_xy, low_near_.data());
     for (std::int32_t x = 0; x < grid.n_xy; ++x, ++i) {
+      if (low_near_[static_cast<std::size_t>(x)] == 0 || std::isnan(out.height[i])) continue;
       const ObstacleSums* own = sums_.data() + grid.at(x, y);
-      if (own->low_hits == 0) continue;
       ObstacleSums around{};
       for (std::int32_t dy = -1; dy <= 1; ++dy)
         for (std::int32_t dx = -1; dx <= 1; ++dx) around.add(own[dy * grid.pitch() + dx]);
       out.flags[i] |= obstacle_flags(map, grid, ground.lowest_ray_m, p, x, y, out.height[i], *own, around);
     }
+  }
 }
 
 }  // namespace gvom::cpu

@@ -10,7 +10,7 @@ namespace gvom::cpu {
 
 class ObstacleFinder {
  public:
-  explicit ObstacleFinder(std::int32_t n_xy) : sums_(static_cast<std::size_t>(ColumnGrid{n_xy}.size())) {}
+  explicit ObstacleFinder(std::int32_t n_xy);
 
   /// Reads `height`; writes `obstacle_density`, `clearance` and the flags HARD and SOFT.
   void find(const FusedView& map, const ColumnParameters& p, const GroundView& ground,
@@ -20,7 +20,9 @@ class ObstacleFinder {
   void read_columns(const FusedView& map, const ColumnParameters& p, const ColumnGrid& grid,
                     const LayerArrays& out);
 
-  std::vector<ObstacleSums> sums_;  // nothing in the margin
+  std::vector<ObstacleSums> sums_;      // nothing in the margin
+  std::vector<std::uint8_t> low_;       // 1: the column has low hits
+  std::vector<std::uint8_t> low_near_;  // of a row: one of the 3 x 3 columns has
 };
 
 }  // namespace gvom::cpu

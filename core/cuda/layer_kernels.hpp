@@ -163,18 +163,34 @@ struct JudgeColumns {
     out.slope[i] = plane.slope;
     out.roughness[i] = plane.roughness;
     out.flags[i] |= static_cast<std::uint8_t>((plane.steep ? kSteep : 0) | obstacles(x, y, out.height[i]));
-    double depth_m = 0;
-    if (may_hide_hole(columns.ground(), at))
-      depth_m = HoleSearch(columns.ground(), tick->holes, x, y).depth_m();
-    out.negative_delta[i] = static_cast<float>(depth_m);
+    const float depth_m = hole_m(x, y);
+    out.negative_delta[i] = depth_m;
     columns.shows_hole[at] = depth_m > 0 ? 1 : 0;
   }
 
  private:
+  [[nodiscard]] __device__ float hole_m(std::int32_t x, std::int32_t y) const {
+    const std::int32_t at = columns.grid.at(x, y);
+    if (may_hide_hole(columns.ground(), at))
+      return static_cast<float>(HoleSearch(columns.ground(), tick->holes, x, y).depth_m());
+    float deepest_m = 0;
+    for (std::int32_t line = 0; line < kLines; ++line)
+      for (std::int32_t d = 1; d <= kPitSides; ++d) {
+        const std::int32_t off = d * line_offset(columns.grid, line);
+        const float pit_m = pit_depth_m(columns.ground_m[at], rim_m(at - off), rim_m(at + off),
+                                        tick->holes.pits.least_m[line][d - 1]);
+        deepest_m = pit_m > deepest_m ? pit_m : deepest_m;
+      }
+    return deepest_m;
+  }
+  [[nodiscard]] __device__ float rim_m(std::int32_t at) const {
+    return rim_height_m(columns.ground_m[at], columns.is_rim[at] != 0);
+  }
+
   [[nodiscard]] __device__ std::uint8_t obstacles(std::int32_t x, std::int32_t y, float height_m) const {
+    if (isnan(height_m)) return 0;
     const ColumnGrid& grid = columns.grid;
     const ObstacleSums* own = columns.obstacles + grid.at(x, y);
-    if (own->low_hits == 0) return 0;
     ObstacleSums around{};
     for (std::int32_t dy = -1; dy <= 1; ++dy)
       for (std::int32_t dx = -1; dx <= 1; ++dx) around.add(own[dy * grid.pitch() + dx]);
@@ -206,7 +222,8 @@ struct FinishColumns {
   __device__ void operator()(std::int32_t i) const {
     const LayerArrays& out = tick->out;
     std::uint8_t flags = out.flags[i];
-    if (is_negative(columns.grid, columns.shows_hole + columns.at(i))) flags |= kNegative;
+    if (is_negative(columns.grid, columns.shows_hole, tick->holes, columns.x(i), columns.y(i)))
+      flags |= kNegative;
     out.flags[i] = flags;
     out.cost[i] = column_cost(tick->parameters.cost, flags, out.height[i], out.obstacle_density[i],
                               out.slope[i], out.roughness[i]);
