@@ -84,8 +84,8 @@ GVOM_HD inline RimFit solve_rims(const RimLine& s) {
   return {first, slope, std::sqrt(squares > 0 ? squares / s.n : 0), true};
 }
 
-/// Seen ground shows a pit if it is lower than the rims on both sides, 1 .. `kPitSides` columns off on a line,
-/// by this share of `negative_threshold` and by what the curvature of ground allows.
+/// Seen ground shows a pit if it is lower than the rims on both sides, 1 .. `kPitSides` columns off on a
+/// line, by this share of `negative_threshold` and by what the curvature of ground allows.
 inline constexpr std::int32_t kPitSides = 3;
 inline constexpr double kPitShare = 0.3;
 
@@ -98,8 +98,8 @@ GVOM_HD inline PitDepths pit_depths(double resolution_m, double negative_thresho
   PitDepths depths{};
   for (std::int32_t line = 0; line < kLines; ++line)
     for (std::int32_t d = 1; d <= kPitSides; ++d)
-      depths.least_m[line][d - 1] = static_cast<float>(kPitShare * negative_threshold_m +
-                                                       curved_rise_m(line, d, resolution_m));
+      depths.least_m[line][d - 1] =
+          static_cast<float>(kPitShare * negative_threshold_m + curved_rise_m(line, d, resolution_m));
   return depths;
 }
 

@@ -17,8 +17,8 @@ inline constexpr std::uint32_t kShadowHits = 10;   ///< In the 3 x 3 columns, fo
 inline constexpr double kLowObstacle_m = 0.1;      ///< Hits so far below an obstacle's height may cast it.
 inline constexpr std::int32_t kShadowColumns = 4;  ///< Behind the column.
 inline constexpr std::int32_t kLeastDark = 2;      ///< Of these, behind what is high.
-inline constexpr double kLowShadow = 0.7;          ///< Of `min_obstacle_height`: so high is a low one's at least.
-inline constexpr double kFalls_m = 0.2;            ///< So much lower is its end.
+inline constexpr double kLowShadow = 0.7;  ///< Of `min_obstacle_height`: so high is a low one's at least.
+inline constexpr double kFalls_m = 0.2;    ///< So much lower is its end.
 
 /// Sums over a column's obstacle voxels.
 struct ObstacleSums {

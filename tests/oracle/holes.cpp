@@ -127,16 +127,42 @@ class Search {
   double rim_m_ = 0;
 };
 
+// Seen or assumed ground below the rims on both sides of it.
+float pit_m(const FusedColumns& map, const Ground& ground, const ColumnAt& column) {
+  constexpr int kSteps[4][2] = {{1, 0}, {0, 1}, {1, 1}, {1, -1}};
+  const double r = map.config.map.resolution_xy_m;
+  float deepest_m = 0;
+  for (int line = 0; line < 4; ++line)
+    for (int d = 1; d <= 3; ++d) {
+      const int dx = d * kSteps[line][0], dy = d * kSteps[line][1];
+      const ColumnAt before{column.x - dx, column.y - dy}, after{column.x + dx, column.y + dy};
+      if (ground.rim.at(before.x, before.y) == YesNo::no) continue;
+      if (ground.rim.at(after.x, after.y) == YesNo::no) continue;
+      const double bend_m = 0.08 * (((d * r) * (d * r)) * (line < 2 ? 1 : 2));
+      const auto least_m = static_cast<float>(0.3 * map.config.layers.negative_threshold_m + bend_m);
+      const float depth_m =
+          std::min(ground.known_m.at(before.x, before.y), ground.known_m.at(after.x, after.y)) -
+          ground.known_m.at(column.x, column.y);
+      if (depth_m > least_m) deepest_m = std::max(deepest_m, depth_m);
+    }
+  return deepest_m;
+}
+
+float shown_m(const FusedColumns& map, const Ground& ground, const ColumnAt& column,
+              const ColumnAt& vehicle) {
+  if (ground.known_m.at(column.x, column.y) < INFINITY) return pit_m(map, ground, column);
+  if (std::isinf(map.lowest_ray_m.at(column.x, column.y))) return 0;
+  if (column.x == vehicle.x && column.y == vehicle.y) return 0;
+  return static_cast<float>(Search(map, ground, column, vehicle).depth_m());
+}
+
 }  // namespace
 
 void find_holes(const FusedColumns& map, const Ground& ground, const ColumnAt& vehicle, Layers& out) {
   Columns<YesNo> shows(out.n, YesNo::no);
   each_column(out.n, [&](int x, int y) {
-    out.negative_delta[out.index(x, y)] = 0;
-    if (ground.known_m.at(x, y) < INFINITY || std::isinf(map.lowest_ray_m.at(x, y))) return;
-    if (x == vehicle.x && y == vehicle.y) return;
-    const double depth_m = Search(map, ground, {x, y}, vehicle).depth_m();
-    out.negative_delta[out.index(x, y)] = static_cast<float>(depth_m);
+    const float depth_m = shown_m(map, ground, {x, y}, vehicle);
+    out.negative_delta[out.index(x, y)] = depth_m;
     if (depth_m > 0) shows.set(x, y, YesNo::yes);
   });
   each_column(out.n, [&](int x, int y) {
@@ -145,7 +171,10 @@ void find_holes(const FusedColumns& map, const Ground& ground, const ColumnAt& v
     for (int dy = -1; dy <= 1; ++dy)
       for (int dx = -1; dx <= 1; ++dx)
         if ((dx != 0 || dy != 0) && shows.at(x + dx, y + dy) == YesNo::yes) ++neighbours;
-    if (neighbours >= 2) out.flags[out.index(x, y)] |= kNegative;
+    const auto abreast = SightLine({x, y}, vehicle).abreast(0);
+    const bool wide = shows.at(abreast[1].x, abreast[1].y) == YesNo::yes ||
+                      shows.at(abreast[2].x, abreast[2].y) == YesNo::yes;
+    if (neighbours >= 2 && wide) out.flags[out.index(x, y)] |= kNegative;
   });
 }
 

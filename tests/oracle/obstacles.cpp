@@ -35,10 +35,10 @@ class Obstacles {
 
   [[nodiscard]] std::uint8_t flag(int x, int y) const {
     const Sums own = sums_.at(x, y), around = sums_around(x, y);
-    if (own.low_hits == 0) return 0;
-    if (around.low_hits >= 10 && casts_shadow(x, y)) return kHard;
+    if (around.low_hits >= 10 && own.low_hits > 0 && casts_high_shadow(x, y)) return kHard;
+    if (around.low_hits >= 10 && casts_low_shadow(x, y)) return kHard;
     if (own.hits == 0) return 0;
-    if (around.hits < 4 || double(around.hits) < 0.08 * double(around.rays)) return kSoft;
+    if (around.hits < 4 || stopped(around) < 0.0625 * counted(around)) return kSoft;
     return is_dense(around) || is_tall(x, y) ? kHard : kSoft;
   }
 
@@ -77,23 +77,45 @@ class Obstacles {
     return total;
   }
 
-  [[nodiscard]] bool casts_shadow(int x, int y) const {
+  // How high over the ground of a column the lowest ray left another one.
+  [[nodiscard]] double ray_over_m(const ColumnAt& column, const ColumnAt& at) const {
+    return double{map_.lowest_ray_m.at(at.x, at.y)} - double{ground_.height_m.at(column.x, column.y)};
+  }
+
+  [[nodiscard]] bool four_behind(const SightLine& line) const {
+    const ColumnAt last = line.at(-4);
+    return line.length() > 0 && sums_.inside(last.x, last.y);
+  }
+
+  [[nodiscard]] bool casts_high_shadow(int x, int y) const {
     const SightLine line({x, y}, vehicle_);
-    if (line.length() == 0) return false;
+    if (!four_behind(line)) return false;
     int dark = 0;
-    for (int behind = 1; behind <= 4; ++behind) {
-      const ColumnAt at = line.at(-behind);
-      if (!sums_.inside(at.x, at.y)) return false;
-      const double ray_over_m = double{map_.lowest_ray_m.at(at.x, at.y)} - double{ground_.height_m.at(x, y)};
-      if (ray_over_m >= layers_.min_obstacle_height_m) ++dark;
-    }
+    for (int behind = 1; behind <= 4; ++behind)
+      if (ray_over_m({x, y}, line.at(-behind)) >= layers_.min_obstacle_height_m) ++dark;
     return dark >= 2;
   }
 
+  [[nodiscard]] bool casts_low_shadow(int x, int y) const {
+    const SightLine line({x, y}, vehicle_);
+    if (!four_behind(line)) return false;
+    for (std::size_t side = 0; side < 3; ++side) {
+      const double own_m = ray_over_m({x, y}, line.abreast(0)[side]);
+      const double next_m = ray_over_m({x, y}, line.abreast(-1)[side]);
+      const double end_m = ray_over_m({x, y}, line.abreast(-4)[side]);
+      if (std::isinf(own_m) || std::isinf(next_m)) continue;
+      const double top_m = std::max(own_m, next_m);
+      if (top_m >= 0.7 * layers_.min_obstacle_height_m && end_m < top_m - 0.2) return true;
+    }
+    return false;
+  }
+
+  // Hits and rays, less a hit for each voxel.
+  [[nodiscard]] static double stopped(const Sums& sums) { return double(sums.hits - sums.voxels); }
+  [[nodiscard]] static double counted(const Sums& sums) { return double(sums.rays - sums.voxels); }
+
   [[nodiscard]] bool is_dense(const Sums& around) const {
-    if (around.rays <= around.voxels) return false;
-    const double stopped = double(around.hits - around.voxels), all = double(around.rays - around.voxels);
-    return stopped >= layers_.density_threshold * all;
+    return counted(around) > 0 && stopped(around) >= layers_.density_threshold * counted(around);
   }
 
   // The highest `min_height` of the layer z in the 3 x 3 columns; -infinity if it is empty.

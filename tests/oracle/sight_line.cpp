@@ -20,7 +20,7 @@ double SightLine::step_m(double resolution_m) const {
 ColumnAt SightLine::beside(int step, int side) const {
   const bool main_is_x = std::abs(dx_) >= std::abs(dy_);
   const int main = main_is_x ? dx_ : dy_, other = main_is_x ? dy_ : dx_;
-  const double slope = std::trunc(65536.0 * other / length_);
+  const double slope = length_ == 0 ? 0 : std::trunc(65536.0 * other / length_);
   const int along = main > 0 ? step : -step;
   const int across = static_cast<int>(std::floor((step * slope + 32768) / 65536)) + side;
   return main_is_x ? ColumnAt{column_.x + along, column_.y + across}
