@@ -11,8 +11,6 @@ namespace gvom::test {
 
 namespace {
 
-const Eigen::Vector3d kSensor_m(0.25, 0.25, 1.25);
-
 LidarGeometry rig_lidar() {
   LidarGeometry lidar;
   lidar.T_base_sensor.translation() = kSensor_m;
@@ -32,14 +30,15 @@ MapperConfig half_metre_map() {
 Rig::Rig(const MapperConfig& config)
     : config_(config), mapper_(config, rig_lidar(), 100'000), fuser_(config) {}
 
-AddResult Rig::see(const Points& points_m, std::int64_t stamp_ns, const Eigen::Vector3d& vehicle_m) {
+AddResult Rig::see(const Points& points_m, std::int64_t stamp_ns, const Eigen::Vector3d& vehicle_m,
+                   const Eigen::Quaterniond& lean) {
   OdometryBuffer odometry(1);
-  odometry.add({stamp_ns, {vehicle_m, Eigen::Quaterniond::Identity()}});
+  odometry.add({stamp_ns, {vehicle_m, lean}});
   Sweep sweep;
   sweep.stamp_ns = stamp_ns;
   sweep.times_ns = {stamp_ns};
   for (const Eigen::Vector3d& point_m : points_m) {
-    const Eigen::Vector3d p = point_m - vehicle_m - kSensor_m;
+    const Eigen::Vector3d p = lean.inverse() * (point_m - vehicle_m) - kSensor_m;
     sweep.returns.push_back({p.x(), p.y(), p.z(), 0});
   }
   auto storage = std::make_unique<BrickMapStorage>();
@@ -74,6 +73,20 @@ ColumnValues Rig::column(double x_m, double y_m) {
           layers.flags[i],
           layers.visibility[i],
           layers.cost[i]};
+}
+
+std::vector<std::array<double, 2>> Rig::flagged(ColumnFlag flag) {
+  oracle::Layers layers(config_.map.size_xy);
+  REQUIRE(fuser_.make_layers(layers.arrays()));
+  const Grid grid = fuser_.moment().grid;
+  std::vector<std::array<double, 2>> centres_m;
+  for (int y = 0; y < layers.n; ++y)
+    for (int x = 0; x < layers.n; ++x)
+      if ((layers.flags[layers.index(x, y)] & flag) != 0) {
+        const auto centre_m = grid.center_m({grid.origin[0] + x, grid.origin[1] + y, 0});
+        centres_m.push_back({centre_m[0], centre_m[1]});
+      }
+  return centres_m;
 }
 
 oracle::Voxel Rig::voxel(double x_m, double y_m, double z_m) const {

@@ -1,6 +1,7 @@
 // A vehicle with one lidar that sees points given in odom: for statements about what the map then says.
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
 #include <vector>
@@ -25,19 +26,24 @@ struct ColumnValues {
 };
 
 /// The lidar sits in the middle of a voxel: 0.25 m ahead and to the left, 1.25 m above base_link.
+inline const Eigen::Vector3d kSensor_m(0.25, 0.25, 1.25);
+
 class Rig {
  public:
   explicit Rig(const MapperConfig& config = half_metre_map());
 
-  /// A sweep that saw these points, the vehicle standing at `vehicle_m` without rotation.
+  /// A sweep that saw these points, the vehicle standing at `vehicle_m`, upright if it is not told.
   AddResult see(const Points& points_m, std::int64_t stamp_ns = 1'000'000'000,
-                const Eigen::Vector3d& vehicle_m = Eigen::Vector3d::Zero());
+                const Eigen::Vector3d& vehicle_m = Eigen::Vector3d::Zero(),
+                const Eigen::Quaterniond& lean = Eigen::Quaterniond::Identity());
 
   /// Forgets all maps.
   void reset();
 
   /// The layers, made afresh, in the column that holds a place.
   ColumnValues column(double x_m, double y_m);
+  /// The centres of the columns that carry a flag, [y][x] in order.
+  std::vector<std::array<double, 2>> flagged(ColumnFlag flag);
   /// The fused voxel that holds a point.
   [[nodiscard]] oracle::Voxel voxel(double x_m, double y_m, double z_m) const;
   /// The lowest point of a ray (R5a) in the fused column that holds a place.

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "tests/core/random.hpp"
+#include "tests/core/random_world.hpp"
+#include "tests/oracle/sweep.hpp"
 
 namespace gvom::test {
 
@@ -33,7 +36,7 @@ MapperConfig random_config(Random& random, const ScenarioSize& size) {
   config.layers.density_threshold = random.pick({0.1, 0.5, 1.0});
   config.layers.plane_size = random.pick({3, 3, 5, 7, 15});
   config.layers.slope_threshold_rad = random.pick({0.2, 0.5, 1.2});
-  config.layers.search_distance = random.pick({1, 3, 8, 15, 15, 255});
+  config.layers.search_distance = random.pick({1, 3, 8, 20, 20, 255});
   config.layers.negative_threshold_m = random.pick({0.0, 0.5});
   config.cost.soft_weight = random.pick({0.0, 1.0, 0.3});
   config.cost.slope_full_rad = random.pick({0.5, 1.1});
@@ -101,6 +104,21 @@ std::vector<StampedPose> random_drive(Random& random, const MapConfig& map, cons
   return drive;
 }
 
+// A drive over the ground of a world, from which the vehicle is now and then elsewhere at once.
+std::vector<StampedPose> drive_over(Random& random, const RandomWorld& world, const MapConfig& map,
+                                    int sweeps) {
+  double x_m = random.uniform(-100, 100), y_m = random.uniform(-100, 100);
+  std::vector<StampedPose> drive;
+  for (int i = 0; i <= sweeps; ++i) {
+    const double step_m = (random.chance(0.1) ? map.size_xy : 3) * map.resolution_xy_m;
+    x_m += random.uniform(-step_m, step_m);
+    y_m += random.uniform(-step_m, step_m);
+    const Eigen::Vector3d at_m(x_m, y_m, world.ground_m(x_m, y_m) + 0.3);
+    drive.push_back({i * kTick_ns, {at_m, random_rotation(random, 0.1)}});
+  }
+  return drive;
+}
+
 Return return_at(const Eigen::Vector3d& p) {
   return {p.x(), p.y(), p.z(), 0};
 }
@@ -142,6 +160,19 @@ Sweep random_sweep(Random& random, const MapConfig& map, const ScenarioSize& siz
   return sweep;
 }
 
+// Makes all returns ones of points of a world.
+void look_at(Random& random, const RandomWorld& world, const Scenario& scenario, const LidarGeometry& lidar,
+             Sweep& sweep) {
+  for (Return& r : sweep.returns) {
+    const auto pose = oracle::pose_at(scenario.odometry, sweep.times_ns[r.time_index]);
+    if (!pose) continue;
+    const Eigen::Vector3d p_odom = world.point(random, pose->translation_m);
+    const Eigen::Vector3d p_base = pose->rotation.inverse() * (p_odom - pose->translation_m);
+    const Eigen::Vector3d p = lidar.T_base_sensor.inverse() * p_base;
+    r = {p.x(), p.y(), p.z(), r.time_index};
+  }
+}
+
 // Delays some, repeats some.
 std::vector<Arrival> disorder(Random& random, const std::vector<Arrival>& in_order) {
   std::vector<std::pair<double, const Arrival*>> keyed;
@@ -164,7 +195,9 @@ Scenario random_scenario(std::uint64_t seed, const ScenarioSize& size) {
   Scenario scenario;
   scenario.config = random_config(random, size);
   const MapConfig& map = scenario.config.map;
-  scenario.odometry = random_drive(random, map, size);
+  std::optional<RandomWorld> world;
+  if (!size.on_faces && random.chance(0.6)) world.emplace(random, map);
+  scenario.odometry = world ? drive_over(random, *world, map, size.sweeps) : random_drive(random, map, size);
   const int lidars = random.integer(1, 3);
   std::vector<Arrival> arrivals;
   for (int lidar = 0; lidar < lidars; ++lidar) {
@@ -172,8 +205,10 @@ Scenario random_scenario(std::uint64_t seed, const ScenarioSize& size) {
     const std::int64_t period_ns = kTick_ns * random.integer(1, 3);
     const std::int64_t offset_ns =
         size.on_faces || random.chance(0.5) ? 0 : random.integer(1, 99) * 1'000'000;
-    for (std::int64_t t = offset_ns; t <= (size.sweeps + 2) * kTick_ns; t += period_ns)
+    for (std::int64_t t = offset_ns; t <= (size.sweeps + 2) * kTick_ns; t += period_ns) {
       arrivals.push_back({lidar, random_sweep(random, map, size, t)});
+      if (world) look_at(random, *world, scenario, scenario.lidars.back(), arrivals.back().sweep);
+    }
   }
   std::stable_sort(arrivals.begin(), arrivals.end(),
                    [](const Arrival& a, const Arrival& b) { return a.sweep.stamp_ns < b.sweep.stamp_ns; });

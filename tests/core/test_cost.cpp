@@ -51,16 +51,16 @@ TEST_CASE("Lethal is lethal, and no height is unknown") {
   CHECK(column_cost(kDefault, 0, NAN, NAN, 0.1f, 0.1f) == 255);
 }
 
-TEST_CASE("A bush on flat ground costs 31, a 20-degree ramp 58, a bump of 0.25 m 10") {
+TEST_CASE("A bush on flat ground costs 31, a 20-degree ramp 58, a bump of 0.1 m 1") {
   Rig bush, ramp, bump;
   bush.see(floor_points(-2, 12, -3, 3) + Points(3, {8.25, 0.25, 1.25}) + Points(5, {14.25, 0.25, 1.25}));
   CHECK(bush.column(8.25, 0.25).cost == 31);
   // slope 0.3490659 of 0.5 rad: 252 * 0.6981317 / 3 = 58.64
   ramp.see(surface(2, 12, -4, 4, [](double x, double) { return std::tan(20 * M_PI / 180) * (x - 2); }));
   CHECK(ramp.column(6.25, 1.25).cost == 58);
-  // roughness 8 * 0.25^2 / 81 = 0.0061728 of 0.05 m^2: 252 * 0.1234568 / 3 = 10.37; its slope is 0
-  bump.see(surface(3, 8, -2, 3, [](double x, double y) { return x == 5.25 && y == 0.25 ? 0.3 : 0.05; }));
-  CHECK(bump.column(5.25, 0.25).cost == 10);
+  // roughness 8 * 0.1^2 / 81 = 0.00098765 of 0.05 m^2: 252 * 0.019753 / 3 = 1.66; its slope is 0
+  bump.see(surface(3, 8, -2, 3, [](double x, double y) { return x == 5.25 && y == 0.25 ? 0.15 : 0.05; }));
+  CHECK(bump.column(5.25, 0.25).cost == 1);
 }
 
 }  // namespace

@@ -1,37 +1,141 @@
-// Ditches and holes (R13).
+// Holes: where a ray has been below the ground that should be there (R13).
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "tests/core/rig.hpp"
+#include "tests/core/scan.hpp"
 
 namespace gvom::test {
 namespace {
 
-// Level ground with a ditch from x = 6 to 8 m. Over the near rim the sensor sees its far wall.
-Points ground_with_ditch() {
-  Points far_wall;
-  for (double y = -2.75; y < 3; y += 0.5)
-    for (const double z : {-0.3, -0.6, -0.9}) far_wall.emplace_back(8.1, y, z);
-  return floor_points(-2, 6, -3, 3) + floor_points(8, 12, -3, 3) + far_wall;
+using Places = std::vector<std::array<double, 2>>;
+
+// What one sweep from the origin, on ground of height `z_m(x, y)`, finds to be holes.
+template <class Height>
+Places holes(Height&& z_m, const Eigen::Quaterniond& lean = Eigen::Quaterniond::Identity()) {
+  Rig rig;
+  rig.see(scan({0, 0, 0}, z_m, lean), 1'000'000'000, {0, 0, 0}, lean);
+  return rig.flagged(kNegative);
 }
 
-TEST_CASE("A ditch is negative by how far the rays dip below its rim") {
+bool holds(const Places& places, double x_m, double y_m) {
+  return std::find(places.begin(), places.end(), std::array<double, 2>{x_m, y_m}) != places.end();
+}
+
+double nearest_x_m(const Places& places) {
+  double nearest_m = INFINITY;
+  for (const auto& at : places) nearest_m = std::min(nearest_m, at[0]);
+  return nearest_m;
+}
+
+// 2 m wide and 1 m deep, across the vehicle's way.
+double ditch_z_m(double x_m) {
+  return x_m >= 6 && x_m < 8 ? -1 : 0;
+}
+
+TEST_CASE("Level ground has no hole in the gaps between the rings of a lidar") {
   Rig rig;
-  rig.see(ground_with_ditch());
-  // Straight ahead the lowest ray is at -0.74 m where it enters the column of 7.75 m, -0.87 m where it
-  // leaves.
-  const ColumnValues column = rig.column(7.75, 0.25);
-  CHECK(std::isnan(column.height));
-  CHECK(column.inferred_height == -1.0f);
-  CHECK(rig.column(8.25, 0.25).height == -0.9f);
-  CHECK(column.negative_delta == Approx(0.05 - -1.0));
-  CHECK(column.flags == kNegative);
-  CHECK(column.cost == 254);
-  // At 6.25 m it is at -0.46 m yet: a drop of 0.05 - -0.9, the far wall's.
-  CHECK(rig.column(6.25, 0.25).inferred_height == -0.5f);
-  CHECK(rig.column(6.25, 0.25).negative_delta == Approx(0.05 - -0.9));
-  CHECK(rig.column(5.75, 0.25).negative_delta == 0);  // the rim itself is ground
-  CHECK((rig.column(5.75, 0.25).flags & kNegative) == 0);
+  rig.see(scan({0, 0, 0}, [](double, double) { return 0.0; }));
+  CHECK(rig.column(10.25, 0.25).visibility == 3);
+  CHECK(rig.flagged(kNegative).empty());
+  int gaps = 0;
+  for (double x = 5.25; x < 15; x += 0.5) gaps += rig.column(x, 0.25).visibility == 1 ? 1 : 0;
+  CHECK(gaps >= 3);
+}
+
+TEST_CASE("A slope of 25 degrees has no hole, up, down or sideways, and isn't steep") {
+  const double slope = 25 * M_PI / 180;
+  const Eigen::Quaterniond lean(Eigen::AngleAxisd(-slope, Eigen::Vector3d::UnitY()));
+  Rig rig;
+  rig.see(scan(
+              {0, 0, 0}, [&](double x, double) { return std::tan(slope) * x; }, lean),
+          1'000'000'000, {0, 0, 0}, lean);
+  CHECK(rig.column(8.25, 0.25).height == Approx(std::tan(slope) * 8.25).margin(0.25));
+  CHECK(rig.flagged(kNegative) == Places{});
+  CHECK(rig.flagged(kSteep) == Places{});
+}
+
+TEST_CASE("A ditch of 2 m is a hole in the same columns, wherever its ground lies within a voxel") {
+  const auto found = [](double ground_m) {
+    Rig rig;
+    const auto z_m = [&](double x, double) { return ground_m + ditch_z_m(x); };
+    rig.see(scan({0, 0, ground_m}, z_m), 1'000'000'000, {0, 0, ground_m});
+    return rig.flagged(kNegative);
+  };
+  const Places due = found(0.01);
+  CHECK(holds(due, 6.75, 0.25));
+  CHECK(holds(due, 7.75, 0.25));
+  CHECK(nearest_x_m(due) > 6);
+  CHECK(found(0.13) == due);
+  CHECK(found(0.33) == due);
+}
+
+TEST_CASE("A ditch is as deep as its far wall is seen") {
+  Rig rig;
+  rig.see(scan({0, 0, 0}, [](double x, double) { return ditch_z_m(x); }));
+  // A ray over the near edge is 1.25 / 5.75 steep: 0.43 m down the far wall, 0.38 m with a beam's step.
+  CHECK(rig.column(7.75, 0.25).negative_delta < 0.44f);
+  CHECK(rig.column(7.75, 0.25).negative_delta > 0.30f);
+  CHECK(rig.column(6.75, 0.25).negative_delta < 0.22f);
+  CHECK(rig.column(5.25, 0.25).negative_delta == 0);
+  CHECK(rig.column(7.75, 0.25).cost == 254);
+}
+
+TEST_CASE("A drop must show by more than 0.16 of the depth that matters, and noise") {
+  MapperConfig config = half_metre_map();
+  config.layers.negative_threshold_m = 2.0;  // 0.32 m, and 0.015 m for 7.5 m of range
+  Rig strict(config);
+  strict.see(scan({0, 0, 0}, [](double x, double) { return ditch_z_m(x); }));
+  const Places found = strict.flagged(kNegative);
+  CHECK_FALSE(holds(found, 6.75, 0.25));  // 0.22 m down at most
+  for (const auto& at : found) CHECK(strict.column(at[0], at[1]).negative_delta > 0.335f);
+}
+
+TEST_CASE("The edge of a cliff shows by rays below level") {
+  const Places found = holes([](double x, double) { return x < 6 ? 0.0 : -5.0; });
+  CHECK(holds(found, 8.25, 0.25));
+  CHECK(nearest_x_m(found) > 6);
+  CHECK(nearest_x_m(found) < 8);
+}
+
+TEST_CASE("No edge is carried on farther than two fifths of the search distance") {
+  MapperConfig config = half_metre_map();
+  config.layers.search_distance = 10;  // 4 columns: to 7.75
+  Rig rig(config);
+  rig.see(scan({0, 0, 0}, [](double x, double) { return x < 6 ? 0.0 : -5.0; }));
+  CHECK(rig.column(7.75, 0.25).negative_delta > 0);
+  CHECK(rig.column(8.75, 0.25).negative_delta == 0);
+}
+
+TEST_CASE("A crest that bends gently is no edge") {
+  // Behind x = 4 m the ground falls on a circle of 20 m, to 6 m down; seen over its highest point, 8 m off, it
+  // is hidden to the foot.
+  const auto crest = [](double x, double) { return x < 4 ? 0.0 : std::max(-(x - 4) * (x - 4) / 40, -6.0); };
+  Rig rig;
+  rig.see(scan({0, 0, 0}, crest));
+  CHECK(rig.column(12.25, 0.25).visibility == 1);
+  CHECK(rig.flagged(kNegative).empty());
+}
+
+// Level ground but for some columns at x = 2.25 m: through these a ray goes down to -0.28 m, just over the edge.
+Points ground_with_gaps(const std::vector<double>& gaps_y_m) {
+  Points points;
+  for (const Eigen::Vector3d& p : floor_points(-2, 14, -3, 3)) {
+    const bool at_gap = std::find(gaps_y_m.begin(), gaps_y_m.end(), p.y()) != gaps_y_m.end();
+    if (!(at_gap && (p.x() == 2.25 || p.x() == 2.75))) points.push_back(p);
+  }
+  for (const double y_m : gaps_y_m) points.emplace_back(2.52, y_m, -0.28);
+  return points;
+}
+
+TEST_CASE("A single column is no hole: two of its neighbours must show one, too") {
+  Rig one, three;
+  one.see(ground_with_gaps({0.25}));
+  three.see(ground_with_gaps({-0.25, 0.25, 0.75}));
+  CHECK(one.column(2.25, 0.25).negative_delta == Approx(0.05 - (1.25 - 1.53 * 2.25 / 2.27)).epsilon(1e-3));
+  CHECK(one.flagged(kNegative).empty());
+  CHECK(three.flagged(kNegative) == Places{{2.25, 0.25}});  // the outer ones have one neighbour each
 }
 
 TEST_CASE("A column behind a wall is unknown, not a hole") {
@@ -47,39 +151,25 @@ TEST_CASE("A column behind a wall is unknown, not a hole") {
   CHECK(behind.cost == 255);
 }
 
-TEST_CASE("Rays over level ground that was not hit make no hole") {
-  Rig rig;
-  rig.see(floor_points(3, 6, -3, 3) + floor_points(8, 12, -3, 3));
-  CHECK(rig.column(6.75, 0.25).inferred_height >= 0);
-  CHECK(rig.column(6.75, 0.25).negative_delta <= 0.05f);
-  CHECK(rig.column(6.75, 0.25).flags == 0);
-}
-
-// A single ray at z = 1.25 m sees through (6.25, 0.25); the ground around it is placed by the test.
-float delta_among(const Points& ground, int search_distance = 15) {
+TEST_CASE("Without ground on this side there is no hole") {
   MapperConfig config = half_metre_map();
   config.vehicle.radius_m = 0;
-  config.layers.search_distance = search_distance;
   Rig rig(config);
-  rig.see(Points{{15.25, 0.25, 1.25}} + ground);
-  REQUIRE(rig.column(6.25, 0.25).inferred_height <= 1.0f);
-  return rig.column(6.25, 0.25).negative_delta;
+  const Points beyond = floor_points(8, 12, -3, 3) + Points(3, {8.1, 0.25, -0.6});
+  rig.see(beyond);
+  CHECK(rig.column(7.75, 0.25).visibility == 1);
+  CHECK(rig.column(7.75, 0.25).negative_delta == 0);
+  rig.see(floor_points(2, 6, -3, 3), 1'100'000'000);
+  CHECK(rig.column(7.75, 0.25).negative_delta > 0);
 }
 
-TEST_CASE("The search goes no farther than its distance") {
-  CHECK(delta_among({{6.25, 4.25, 3.3}}, 8) == Approx(3.3 - 1.0));
-  CHECK(delta_among({{6.25, 4.25, 3.3}}, 7) == 0);
-}
-
-TEST_CASE("The search widens as it goes, and stops at the first row with ground") {
-  // +y only: at distance 2, two columns aside, 4 m; farther on, straight, 5 m.
-  CHECK(delta_among({{7.25, 1.25, 4.3}, {6.25, 1.75, 5.3}}, 2) == Approx(4.3 - 1.0));
-  CHECK(delta_among({{7.25, 0.75, 4.3}}, 1) == 0);  // at distance 1 it is two aside of +y, and of +x two away
-}
-
-TEST_CASE("Of ground at one distance the least sideways counts, of two alike the negative side") {
-  CHECK(delta_among({{6.75, 1.75, 4.3}, {5.25, 1.75, 5.3}}, 3) == Approx(4.3 - 1.0));
-  CHECK(delta_among({{5.75, 1.75, 4.3}, {6.75, 1.75, 5.3}}, 3) == Approx(4.3 - 1.0));
+TEST_CASE("The rim is looked for no farther than the search distance") {
+  MapperConfig config = half_metre_map();
+  config.layers.search_distance = 3;
+  Rig rig(config);
+  rig.see(scan({0, 0, 0}, [](double x, double) { return ditch_z_m(x); }));
+  CHECK(rig.column(7.25, 0.25).negative_delta > 0);   // the third from the last rim, at 5.75
+  CHECK(rig.column(7.75, 0.25).negative_delta == 0);  // the fourth
 }
 
 }  // namespace

@@ -9,14 +9,29 @@ namespace {
 
 const Points kFloor = floor_points(-2, 12, -3, 3);
 
-// Three of eight rays stop in a bush at sensor height, five go on.
-const Points kBush = Points(3, {8.25, 0.25, 1.25}) + Points(5, {14.25, 0.25, 1.25});
+// Rays that end in the column (8.25, 0.25), at heights from `low_m` to `high_m`, and for each of them
+// `passing` that go on at the same height.
+Points thing(double low_m, double high_m, double step_m, std::size_t passing) {
+  Points points;
+  for (double z = low_m; z < high_m; z += step_m) {
+    points.emplace_back(8.25, 0.25, z);
+    const double on_m = 1.25 + (z - 1.25) * 15 / 8;
+    points = points + Points(passing, {15.25, 0.25, on_m});
+  }
+  return points;
+}
+
+ColumnValues with(const Points& things, const LayersConfig& layers = {}) {
+  MapperConfig config = half_metre_map();
+  config.layers = layers;
+  Rig rig(config);
+  rig.see(kFloor + things);
+  return rig.column(8.25, 0.25);
+}
 
 TEST_CASE("A tree trunk is hard") {
   Rig rig;
-  Points trunk;
-  for (double z = 0.25; z < 3; z += 0.1) trunk.emplace_back(8.25, 0.25, z);
-  rig.see(kFloor + trunk);
+  rig.see(kFloor + thing(0.25, 3, 0.1, 0));
   const ColumnValues column = rig.column(8.25, 0.25);
   CHECK(column.height == 0.05f);
   CHECK(column.obstacle_density > 0.9f);
@@ -26,26 +41,100 @@ TEST_CASE("A tree trunk is hard") {
   CHECK(rig.column(8.25, 0.75).flags == 0);
 }
 
+TEST_CASE("A trunk thinner than a voxel is hard because it is tall") {
+  const ColumnValues thin = with(thing(0.65, 2.2, 0.1, 4));
+  CHECK(thin.obstacle_density < 0.25f);
+  CHECK(thin.flags == kHard);
+}
+
+TEST_CASE("A bush of 1 m is soft, as thin as the trunk") {
+  CHECK(with(thing(0.65, 1.1, 0.1, 4)).flags == kSoft);
+  CHECK(with(thing(0.65, 1.1, 0.1, 4)).cost < 252);
+}
+
+TEST_CASE("Tall is what reaches an obstacle's greatest height, less a voxel") {
+  CHECK(with(thing(0.65, 1.1, 0.1, 4) + Points{{8.25, 0.25, 1.5501}}).flags == kHard);
+  CHECK(with(thing(0.65, 1.1, 0.1, 4) + Points{{8.25, 0.25, 1.5499}}).flags == kSoft);
+}
+
+TEST_CASE("A stack may have one empty layer in it, not two, and the columns around fill it") {
+  const Points low = thing(0.65, 0.93, 0.05, 4);  // the layer from 0.5 to 1 m
+  CHECK(with(low + Points{{8.25, 0.25, 1.85}}).flags == kHard);
+  CHECK(with(low + Points{{8.25, 0.25, 2.05}}).flags == kSoft);
+  CHECK(with(low + Points{{8.75, 0.75, 1.05}, {8.25, 0.25, 2.05}}).flags == kHard);
+}
+
+TEST_CASE("Dust is soft, however tall: 0.08 of its rays must end in it") {
+  const Points four{{8.25, 0.25, 0.65}, {8.25, 0.25, 1.15}, {8.25, 0.25, 1.25}, {8.25, 0.25, 1.75}};
+  CHECK(with(four + Points(46, {15.25, 0.25, 1.25})).flags == kHard);  // 4 of 50
+  CHECK(with(four + Points(47, {15.25, 0.25, 1.25})).flags == kSoft);
+}
+
+TEST_CASE("Three hits are too few to be hard") {
+  CHECK(with(thing(0.65, 1.75, 0.5, 0)).flags == kSoft);
+  CHECK(with(thing(0.65, 1.75, 0.3, 0)).flags == kHard);
+}
+
+// Some of the rays at the sensor's height stop in a bush, some go on.
+Points bush(std::size_t stopped, std::size_t passed) {
+  return Points(stopped, {8.25, 0.25, 1.25}) + Points(passed, {15.25, 0.25, 1.25});
+}
+
 TEST_CASE("A bush through which five of eight rays go is soft, of density 3/8") {
-  Rig rig;
-  rig.see(kFloor + kBush);
-  const ColumnValues column = rig.column(8.25, 0.25);
+  const ColumnValues column = with(bush(3, 5));
   CHECK(column.obstacle_density == 0.375f);
   CHECK(column.flags == kSoft);
   CHECK(column.clearance == INFINITY);
 }
 
-TEST_CASE("Half of the rays is hard: the threshold belongs to it") {
+TEST_CASE("Dense is from the threshold on, less one hit for each voxel") {
+  CHECK(with(bush(5, 4)).flags == kHard);  // 4 of 8
+  CHECK(with(bush(5, 5)).flags == kSoft);  // 4 of 9, though 5 of 10 is a half
+  CHECK(with(bush(5, 5)).obstacle_density == 0.5f);
+  LayersConfig low;
+  low.density_threshold = 0.4;
+  CHECK(with(bush(5, 5), low).flags == kHard);
+}
+
+TEST_CASE("The columns around say how dense a thing is") {
+  const Points beside(4, {8.75, 0.75, 1.25});
+  CHECK(with(bush(2, 3)).flags == kSoft);
+  CHECK(with(bush(2, 3) + beside).flags == kHard);  // 4 of 7 with them, less a hit for each voxel
+  CHECK(with(bush(2, 3) + beside).obstacle_density == 0.4f);
+}
+
+// A rock of 0.7 m: its face stops twelve rays, thirty go over it through the same voxel. In its shadow no ray
+// meets the ground but one, at `seen_x_m`.
+ColumnValues rock(double seen_x_m) {
+  Points points = Points(30, {15.25, 0.25, 1.25 - 0.45 * 15 / 8}) + Points{{seen_x_m, 0.25, 0.05}};
+  for (const Eigen::Vector3d& p : kFloor)
+    if (p.x() < 8.5 || p.y() != 0.25) points.push_back(p);
+  for (int i = 0; i < 12; ++i) points.emplace_back(8.25, 0.25, 0.59 + 0.01 * i);
   Rig rig;
-  rig.see(kFloor + kBush + Points(2, {8.25, 0.25, 1.25}));
-  CHECK(rig.column(8.25, 0.25).obstacle_density == 0.5f);
-  CHECK(rig.column(8.25, 0.25).flags == kHard);
+  rig.see(points);
+  return rig.column(8.25, 0.25);
+}
+
+TEST_CASE("A rock of 0.7 m is hard by its shadow, from two dark columns of four on") {
+  CHECK(rock(8.25).flags == kHard);
+  CHECK(rock(8.25).obstacle_density == static_cast<float>(12.0 / 42));
+  CHECK(rock(9.75).flags == kHard);   // 8.75 and 9.25 are seen through
+  CHECK(rock(10.25).flags == kSoft);  // and 9.75
+}
+
+TEST_CASE("A wall is hard") {
+  Points wall;
+  for (double y = -2.75; y < 3; y += 0.5)
+    for (double z = 0.25; z < 1.05; z += 0.1) wall.emplace_back(8.25, y, z);
+  Rig rig;
+  rig.see(floor_points(-2, 8.5, -3, 3) + wall);
+  for (double y = -1.75; y < 2; y += 0.5) CHECK(rig.column(8.25, y).flags == kHard);
 }
 
 TEST_CASE("Density is weighted by rays over the column's obstacle voxels") {
   Rig rig;
   // A second obstacle voxel, of one hit, over the bush's; no ray goes through it.
-  rig.see(kFloor + kBush + Points{{8.25, 0.25, 1.55}});
+  rig.see(kFloor + bush(3, 5) + Points{{8.25, 0.25, 1.55}});
   CHECK(rig.column(8.25, 0.25).obstacle_density == static_cast<float>(4.0 / 9.0));
 }
 
@@ -68,9 +157,9 @@ ColumnValues over_ground(double height_m) {
 }
 
 TEST_CASE("Obstacle heights belong to the obstacles, both ends") {
-  CHECK(over_ground(0.5).flags == kHard);
+  CHECK(over_ground(0.5).flags == kSoft);
   CHECK(over_ground(0.4999).flags == 0);  // the ground's own voxel
-  CHECK(over_ground(2.0).flags == kHard);
+  CHECK(over_ground(2.0).flags == kSoft);
   CHECK(over_ground(2.0).clearance == INFINITY);
   CHECK(over_ground(2.0001).flags == 0);
   CHECK(over_ground(2.0001).clearance == 2.0001f);

@@ -29,7 +29,7 @@ Plane fit(const Patch& patch, double resolution_m, double threshold_rad = 0.5) {
   const PlaneFit plane = solve_plane(sums);
   double squares_m2 = 0;
   patch.each([&](int dx, int dy, float z_m) { squares_m2 += squared_residual(plane, dx, dy, z_m); });
-  return plane_layers(plane, sums.n, squares_m2, resolution_m, threshold_rad);
+  return plane_layers(plane, sums, squares_m2, resolution_m, threshold_rad);
 }
 
 // Slopes in x and y and the mean squared residual, by a decomposition in long double.
@@ -96,14 +96,14 @@ TEST_CASE("Planes are the least-squares solver's, with heights missing and far f
   }
 }
 
-TEST_CASE("Fewer than three heights, or heights on one line, make no plane") {
+TEST_CASE("Fewer than five heights, or heights on one line, make no plane") {
   constexpr float n = NAN;
   CHECK(std::isnan(heights({n, n, n, n, n, n, n, n, n}, &Plane::slope)));
-  CHECK(std::isnan(heights({1, 1, n, n, n, n, n, n, n}, &Plane::slope)));
-  CHECK(std::isnan(heights({1, 1, 1, n, n, n, n, n, n}, &Plane::roughness)));  // a row
-  CHECK(std::isnan(heights({n, 1, n, n, 2, n, n, 3, n}, &Plane::slope_x)));    // a column
-  CHECK(std::isnan(heights({1, n, n, n, 2, n, n, n, 3}, &Plane::slope_y)));    // a diagonal
-  CHECK(heights({1, 1, n, 1, n, n, n, n, n}, &Plane::slope) == 0);
+  CHECK(std::isnan(heights({1, 1, 1, 1, n, n, n, n, n}, &Plane::slope)));
+  CHECK(std::isnan(heights({1, n, 1, n, n, n, 1, n, 1}, &Plane::roughness)));  // four corners
+  CHECK(heights({1, n, 1, n, 1, n, 1, n, 1}, &Plane::slope) == 0);
+  const Patch row{2, {n, n, n, n, n, n, n, n, n, n, 1, 1, 1, 1, 1, n, n, n, n, n, n, n, n, n, n}};
+  CHECK(std::isnan(fit(row, 0.5).slope_x));
 }
 
 TEST_CASE("A raised middle of h is rough by 8 h^2 / 81") {
@@ -122,6 +122,21 @@ TEST_CASE("A plane is steep from the threshold on") {
   const Patch one_to_one{1, {0, 1, 2, 0, 1, 2, 0, 1, 2}};
   CHECK(fit(one_to_one, 1.0, arctangent(1)).steep);
   CHECK_FALSE(fit(one_to_one, 1.0, std::nextafter(arctangent(1), 2)).steep);
+}
+
+TEST_CASE("A plane is steep if its slope is, less its standard error") {
+  // 0.6 m/m and residuals of 0.2, -0.4 and 0.2 m: 0.08 m^2 over six columns^2, an error of 0.1155 m/m.
+  const Patch step{1, {0, 0, 1.2f, 0, 0, 1.2f, 0, 0, 1.2f}};
+  CHECK(fit(step, 1.0).slope_x == Approx(0.6));
+  CHECK(fit(step, 1.0).roughness == Approx(0.08));
+  const double surely = 0.6 - std::sqrt(0.08 / 6);
+  CHECK(fit(step, 1.0, std::atan(surely) - 1e-6).steep);
+  CHECK_FALSE(fit(step, 1.0, std::atan(surely) + 1e-6).steep);
+}
+
+TEST_CASE("A slope that is all error is never steep") {
+  CHECK_FALSE(fit({1, {0, 9, 0, 0, 0, 9, 9, 0, 0.5f}}, 1.0, 0.0).steep);
+  CHECK_FALSE(fit({1, {0, 0, 0, 0, 0, 0, 0, 0, 0}}, 1.0, 0.0).steep);
 }
 
 }  // namespace
