@@ -198,11 +198,14 @@ TEST_CASE("A ray through the return's own voxel does not make it hang, and says 
   CHECK(height_with_ray_below(0.41) == 0.41f);
 }
 
-TEST_CASE("A single ray mirrored metres below well seen ground changes nothing") {
-  Rig rig;
-  rig.see(floor_points(2, 13, -4, 4) + Points(4, {8.25, 0.25, 0.05}) + Points{{8.75, 0.25, -2.75}});
-  REQUIRE(rig.lowest_ray_m(8.25, 0.25) < -2);
-  CHECK(rig.column(8.25, 0.25).height == 0.05f);
+TEST_CASE("A single ray mirrored 1 m or more below well seen ground changes nothing") {
+  for (const double below_m : {1.0, 2.5}) {
+    Rig rig;
+    rig.see(floor_points(2, 13, -4, 4) + Points(4, {8.25, 0.25, 0.05}) +
+            Points{{8.75, 0.25, 1.25 - (1.2 + below_m) * 8.5 / 8.25}});
+    REQUIRE(rig.lowest_ray_m(8.25, 0.25) == Approx(0.05 - below_m).epsilon(1e-3));
+    CHECK(rig.column(8.25, 0.25).height == 0.05f);
+  }
 }
 
 // A thing whose foot no ray reaches, on ground without a ray below it.
