@@ -102,6 +102,17 @@ Complaint bad_frame(const M& message) {
   return pose ? Complaint{} : Complaint{"has a pose that is not finite, or over 10,000 km away"};
 }
 
+/// A grid is laid around its vehicle, to a brick (R1).
+Complaint bad_vehicle(const BrickMap& map) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double from_origin =
+        map.T_odom_base.position_m[axis] / map.grid.resolution_m[axis] - map.grid.origin[axis];
+    if (!(from_origin >= 0 && from_origin <= map.grid.size[axis] + kBrickEdge))
+      return "has its vehicle outside of its grid";
+  }
+  return std::nullopt;
+}
+
 bool is_time(std::int64_t time_ns) {
   return time_ns >= -kMaxStamp_ns && time_ns <= kMaxStamp_ns;
 }
@@ -148,6 +159,7 @@ Complaint check_brick_map(const std::byte* message, std::size_t bytes) {
   if (bytes < sizeof(BrickMap)) return wrong_size(bytes, sizeof(BrickMap));
   const auto& map = as<BrickMap>(message);
   if (auto complaint = bad_frame(map)) return complaint;
+  if (auto complaint = bad_vehicle(map)) return complaint;
   if (auto complaint = bad_time({map.mono_received_ns, map.suspended_ns, map.mono_mapped_ns,
                                  map.mono_published_ns, map.odometry_jump_ns}))
     return complaint;

@@ -21,6 +21,7 @@ constexpr std::uint64_t kColumns[2] = {~std::uint64_t{0}, 0x7ff};  // 512 and 86
 void fill_grid(BrickMap& map) {
   map.grid.size[0] = map.grid.size[1] = 64;
   map.grid.size[2] = 32;
+  map.grid.resolution_m = {0.4, 0.4, 0.4};
 }
 
 /// Two bricks, three records.

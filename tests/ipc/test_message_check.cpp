@@ -100,10 +100,29 @@ TEST_CASE("so are times of this machine's clock, of a map and of layers") {
 }
 
 TEST_CASE("a grid that begins where none can is refused") {
-  CHECK(refusal_of([](BrickMap& map) { map.grid.origin[0] = -(1 << 30); }).empty());
+  CHECK(refusal_of([](BrickMap& map) {
+          map.grid.origin[0] = -(1 << 30);
+          map.grid.resolution_m[0] = 0.005;
+          map.T_odom_base.position_m[0] = 0.005 * -(1 << 30);
+        }).empty());
   CHECK(refusal_of([](BrickMap& map) { map.grid.origin[1] = 4; }) == "it claims to begin at voxel (0, 4, 0)");
   CHECK(refusal_of([](BrickMap& map) { map.grid.origin[2] = 2147483640; }) ==
         "it claims to begin at voxel (0, 0, 2147483640)");
+}
+
+TEST_CASE("a map is laid around its vehicle, to a brick, or refused") {
+  const std::string why = "it has its vehicle outside of its grid";
+  const auto with_vehicle_at = [](std::size_t axis, double position_m) {
+    return refusal_of([&](BrickMap& map) { map.T_odom_base.position_m[axis] = position_m; });
+  };
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double edge_m = (axis < 2 ? 16 : 8) * 0.4;
+    CHECK(with_vehicle_at(axis, edge_m + 3.1).empty());
+    CHECK(with_vehicle_at(axis, edge_m + 3.3) == why);
+    CHECK(with_vehicle_at(axis, -0.1) == why);
+  }
+  CHECK(refusal_of([](BrickMap& map) { map.grid.resolution_m[1] = 0; }) == why);
+  CHECK(refusal_of([](BrickMap& map) { map.grid.resolution_m[1] = kNan; }) == why);
 }
 
 TEST_CASE("a pose that is not finite, or not on Earth, is refused") {

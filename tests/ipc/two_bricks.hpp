@@ -23,6 +23,7 @@ class TwoBricks {
     map.header.size = layout_.bytes;
     map.grid.size[0] = map.grid.size[1] = 16;
     map.grid.size[2] = 8;
+    map.grid.resolution_m = {0.4, 0.4, 0.4};
     map.T_odom_base.orientation_xyzw[3] = 1;
     map.shape = {4, brick_count, record_count, kColumns};
     std::fill_n(lowest_ray_m(), kColumns, kNoRay_m);
