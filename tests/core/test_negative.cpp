@@ -129,25 +129,62 @@ TEST_CASE("A crest that bends gently is no edge") {
   CHECK(rig.flagged(kNegative).empty());
 }
 
-// Level ground but for some columns at x = 2.25 m: through these a ray goes down to -0.28 m, just over the
-// edge.
-Points ground_with_gaps(const std::vector<double>& gaps_y_m) {
+// Level ground but for some rows of it, where it isn't seen from x = 2 m on, until a ray ends in `bottom`.
+Points ground_with_gaps(const std::vector<double>& gaps_y_m, double bottom_x_m, double bottom_z_m) {
   Points points;
   for (const Eigen::Vector3d& p : floor_points(-2, 14, -3, 3)) {
-    const bool at_gap = std::find(gaps_y_m.begin(), gaps_y_m.end(), p.y()) != gaps_y_m.end();
-    if (!(at_gap && (p.x() == 2.25 || p.x() == 2.75))) points.push_back(p);
+    const bool in_row = std::find(gaps_y_m.begin(), gaps_y_m.end(), p.y()) != gaps_y_m.end();
+    if (!(in_row && p.x() > 2 && p.x() < bottom_x_m + 0.25)) points.push_back(p);
   }
-  for (const double y_m : gaps_y_m) points.emplace_back(2.52, y_m, -0.28);
+  for (const double y_m : gaps_y_m) points.emplace_back(bottom_x_m, y_m, bottom_z_m);
   return points;
 }
 
 TEST_CASE("A single column is no hole: two of its neighbours must show one, too") {
-  Rig one, three;
-  one.see(ground_with_gaps({0.25}));
-  three.see(ground_with_gaps({-0.25, 0.25, 0.75}));
-  CHECK(one.column(2.25, 0.25).negative_delta == Approx(0.05 - (1.25 - 1.53 * 2.25 / 2.27)).epsilon(1e-3));
+  Rig one, two, three;
+  one.see(ground_with_gaps({0.25}, 2.52, -0.1));
+  two.see(ground_with_gaps({0.25, 0.75}, 2.52, -0.1));
+  three.see(ground_with_gaps({-0.25, 0.25, 0.75}, 2.52, -0.1));
+  CHECK(one.column(2.25, 0.25).negative_delta == Approx(0.05 - (1.25 - 1.35 * 2.25 / 2.27)).epsilon(1e-3));
   CHECK(one.flagged(kNegative).empty());
+  CHECK(two.flagged(kNegative).empty());
   CHECK(three.flagged(kNegative) == Places{{2.25, 0.25}});  // the outer ones have one neighbour each
+}
+
+TEST_CASE("A streak away from the vehicle is no hole, two of them side by side are one") {
+  Rig streak, wide;
+  streak.see(ground_with_gaps({0.25}, 3.02, -0.6));
+  wide.see(ground_with_gaps({0.25, 0.75}, 3.02, -0.6));
+  for (const double x_m : {2.25, 2.75, 3.25}) CHECK(streak.column(x_m, 0.25).negative_delta > 0.2f);
+  CHECK(streak.flagged(kNegative).empty());
+  CHECK(wide.flagged(kNegative) ==
+        Places{{2.25, 0.25}, {2.75, 0.25}, {3.25, 0.25}, {2.25, 0.75}, {2.75, 0.75}, {3.25, 0.75}});
+}
+
+// Level ground with a pothole of a metre, whose bottom is seen where its rim lets rays pass.
+Points pothole(double nearer_z_m, double farther_z_m) {
+  Points points;
+  for (const Eigen::Vector3d& p : floor_points(-2, 14, -3, 3))
+    if (!(p.x() > 4 && p.x() < 5 && p.y() > 0 && p.y() < 1)) points.push_back(p);
+  for (const double y_m : {0.25, 0.75}) {
+    points.emplace_back(4.45, y_m, nearer_z_m);
+    points.emplace_back(4.95, y_m, farther_z_m);
+  }
+  return points;
+}
+
+TEST_CASE("A pothole is a hole though its bottom is seen: ground below that on both sides") {
+  Rig deep, shallow;
+  deep.see(pothole(-0.2, -0.3));
+  CHECK(deep.column(4.75, 0.25).visibility == 3);
+  CHECK(deep.column(4.25, 0.25).negative_delta == 0.05f + 0.2f);
+  CHECK(deep.column(4.75, 0.25).negative_delta == 0.05f + 0.3f);
+  CHECK(deep.flagged(kNegative) == Places{{4.25, 0.25}, {4.75, 0.25}, {4.25, 0.75}, {4.75, 0.75}});
+  // Across a corner, one column off, 0.3 of the half metre that matters must show, and 0.04 m for ground
+  // bends.
+  shallow.see(pothole(-0.13, -0.13));
+  CHECK(shallow.column(4.75, 0.25).height == -0.13f);
+  CHECK(shallow.flagged(kNegative).empty());
 }
 
 TEST_CASE("A column behind a wall is unknown, not a hole") {
