@@ -69,15 +69,35 @@ GVOM_HD inline float assumed_ground_m(const ColumnParameters& p, std::int32_t x,
   return static_cast<float>(p.ground_under_vehicle_m + (p.ground_slope_x * dx_m + p.ground_slope_y * dy_m));
 }
 
+GVOM_HD inline bool is_worn(const FusedView& map, std::size_t cell) {
+  return map.passes[cell] > kMostPassesPerHit * std::uint64_t{map.hits[cell]};
+}
+
 /// The lowest occupied voxel that rays have not worn away (R8), or -1.
 GVOM_HD inline std::int32_t lowest_solid(const FusedView& map, std::int32_t x, std::int32_t y) {
   const std::uint64_t* occupied = map.occupied + map.column(x, y) * static_cast<std::size_t>(map.words);
   std::int32_t z = lowest_bit(occupied, map.words);
-  for (; z >= 0; z = next_bit(occupied, map.words, z)) {
-    const std::size_t cell = map.cell(x, y, z);
-    if (map.passes[cell] <= kMostPassesPerHit * std::uint64_t{map.hits[cell]}) break;
-  }
+  while (z >= 0 && is_worn(map, map.cell(x, y, z))) z = next_bit(occupied, map.words, z);
   return z;
+}
+
+/// The voxel whose lowest return is a column's own (R9), or -1. It is remembered or not (R17).
+struct LowestVoxel {
+  std::int32_t z;
+  bool remembered;
+};
+
+/// A remembered one right below one that the window has is the same ground as it was, before the odometry
+/// drifted.
+GVOM_HD inline LowestVoxel lowest_voxel(const FusedView& map, std::int32_t x, std::int32_t y) {
+  const std::int32_t z = lowest_solid(map, x, y);
+  if (z < 0 || map.memory.remembered == nullptr) return {z, false};
+  const std::size_t mask = map.column(x, y) * static_cast<std::size_t>(map.words);
+  const std::uint64_t* remembered = map.memory.remembered + mask;
+  if (!has_bit(remembered, z)) return {z, false};
+  const bool seen_above = z + 1 < map.n_z && has_bit(map.occupied + mask, z + 1) &&
+                          !has_bit(remembered, z + 1) && !is_worn(map, map.cell(x, y, z + 1));
+  return {seen_above ? z + 1 : z, !seen_above};
 }
 
 /// Whether rays went below voxel `z` of a column (R9): one left the column lower, and a voxel further down
@@ -97,40 +117,76 @@ GVOM_HD inline bool hangs(const FusedView& map, std::int32_t x, std::int32_t y, 
 struct ColumnGround {
   float inferred_height;
   float last_seen;
-  float lowest_m;  ///< Of its lowest return, or kNone_m.
-  float ground_m;  ///< Seen or assumed, or kNone_m.
+  float lowest_ray_m;  ///< Of the window, or remembered too (R17).
+  float lowest_m;      ///< Of its lowest return, or kNone_m.
+  float ground_m;      ///< Seen or assumed, or kNone_m.
   bool assumed;
   bool observed;
+  bool remembered;
 };
 
+/// Seconds from a stamp to the layers'.
+GVOM_HD inline float age_s(std::int64_t age_ns) {
+  return static_cast<float>(static_cast<double>(age_ns) * 1e-9);
+}
+
+/// R15. @param lowest see `lowest_voxel`, @param observed the column has a solid or a free voxel
+GVOM_HD inline float last_seen_s(const FusedView& map, const ColumnParameters& p, std::int32_t x,
+                                 std::int32_t y, const LowestVoxel& lowest, bool observed) {
+  if (lowest.remembered)
+    return age_s(time_since(map.memory.hits[map.cell(x, y, lowest.z)].second(), p.stamp_ns));
+  const std::int64_t seen_ns = map.last_seen_ns[map.column(x, y)];
+  if (seen_ns != kNeverSeen) return age_s(p.stamp_ns - seen_ns);
+  if (!observed) return kUnknown;
+  return age_s(time_since(map.memory.column_seconds[map.stacked_column(x, y)], p.stamp_ns));
+}
+
+/// The lowest point of a ray by which a column is judged (R5a, R17): the window's where the window has its
+/// ground.
+GVOM_HD inline float lowest_ray_m(const FusedView& map, std::int32_t x, std::int32_t y,
+                                  const LowestVoxel& lowest) {
+  const std::size_t column = map.stacked_column(x, y);
+  const bool alone = map.memory.lowest_ray_m == nullptr || (lowest.z >= 0 && !lowest.remembered);
+  if (alone) return map.lowest_ray_m[column];
+  return lower(map.lowest_ray_m[column], map.memory.lowest_ray_m[column]);
+}
+
 GVOM_HD inline ColumnGround read_ground(const FusedView& map, const ColumnParameters& p, std::int32_t x,
-                                        std::int32_t y, float lowest_ray_m) {
+                                        std::int32_t y) {
   const std::size_t column = map.column(x, y);
   const std::int32_t lowest_free =
       lowest_bit(map.free + column * static_cast<std::size_t>(map.words), map.words);
-  const std::int32_t z = lowest_solid(map, x, y);
-  ColumnGround out{kUnknown, kUnknown, kNone_m, kNone_m, false, lowest_free >= 0 || z >= 0};
+  const LowestVoxel lowest = lowest_voxel(map, x, y);
+  ColumnGround out{kUnknown, kUnknown, kNone_m, kNone_m, kNone_m, false, false, false};
+  out.observed = lowest_free >= 0 || lowest.z >= 0;
+  out.remembered = lowest.z >= 0 ? lowest.remembered : map.last_seen_ns[column] == kNeverSeen;
+  out.lowest_ray_m = lowest_ray_m(map, x, y, lowest);
+  out.last_seen = last_seen_s(map, p, x, y, lowest, out.observed);
   if (lowest_free >= 0)
     out.inferred_height = static_cast<float>((p.origin[2] + lowest_free) * p.resolution_z_m);
-  if (map.last_seen_ns[column] != kNeverSeen)
-    out.last_seen = static_cast<float>(static_cast<double>(p.stamp_ns - map.last_seen_ns[column]) * 1e-9);
-  if (z < 0) {
+  if (lowest.z < 0) {
     out.ground_m = assumed_ground_m(p, x, y);
     out.assumed = out.ground_m != kNone_m;
     return out;
   }
-  out.lowest_m = map.min_height_m[map.cell(x, y, z)];
-  if (hangs(map, x, y, z, out.lowest_m, lowest_ray_m)) return out;
-  const float below_m = out.lowest_m - lowest_ray_m;
-  out.ground_m = below_m > kBlades_m && below_m <= kHangs_m ? lowest_ray_m : out.lowest_m;
+  out.lowest_m = map.min_height_m[map.cell(x, y, lowest.z)];
+  if (hangs(map, x, y, lowest.z, out.lowest_m, out.lowest_ray_m)) return out;
+  const float below_m = out.lowest_m - out.lowest_ray_m;
+  out.ground_m = below_m > kBlades_m && below_m <= kHangs_m ? out.lowest_ray_m : out.lowest_m;
   return out;
 }
 
 /// R15, where a lowest return that hangs finds its ground.
 GVOM_HD inline Visibility visibility_of(const ColumnGround& column) {
   if (column.assumed) return Visibility::ground_assumed;
-  if (column.lowest_m != kNone_m) return Visibility::ground_seen;
-  return column.observed ? Visibility::free_only : Visibility::unobserved;
+  if (!column.observed) return Visibility::unobserved;
+  if (column.remembered) return Visibility::remembered;
+  return column.lowest_m != kNone_m ? Visibility::ground_seen : Visibility::free_only;
+}
+
+/// R15 of a column that hangs and finds no ground around it.
+GVOM_HD inline std::uint8_t without_height(std::uint8_t visibility) {
+  return is_remembered(visibility) ? visibility : static_cast<std::uint8_t>(Visibility::free_only);
 }
 
 /// `height` of a column (R9), or kNone_m. @param ground_m, lowest_m as in ColumnGround, @param stands_out

@@ -22,6 +22,10 @@ GVOM_HD inline std::uint64_t bits_from(std::int32_t bit) {
   return bit < 64 ? ~std::uint64_t{0} << bit : 0;
 }
 
+GVOM_HD inline bool has_bit(const std::uint64_t* mask, std::int32_t bit) {
+  return (mask[bit / 64] >> (bit % 64) & 1) != 0;
+}
+
 /// Index of the lowest set bit of a column's mask, or -1.
 GVOM_HD inline std::int32_t lowest_bit(const std::uint64_t* mask, std::int32_t words) {
   for (std::int32_t w = 0; w < words; ++w)

@@ -25,6 +25,8 @@ struct ColumnGrid {
   [[nodiscard]] GVOM_HD std::int32_t at(std::int32_t x, std::int32_t y) const {
     return (y + kMargin) * pitch() + x + kMargin;
   }
+  [[nodiscard]] GVOM_HD std::int32_t x_of(std::int32_t at) const { return at % pitch() - kMargin; }
+  [[nodiscard]] GVOM_HD std::int32_t y_of(std::int32_t at) const { return at / pitch() - kMargin; }
   [[nodiscard]] GVOM_HD bool contains(std::int32_t x, std::int32_t y) const {
     return x >= 0 && y >= 0 && x < n_xy && y < n_xy;
   }

@@ -22,6 +22,12 @@ struct WindowConfig {
   double max_age_s = 2.0;  ///< No map is older than this before the newest stamp, 0 .. 3600.
 };
 
+/// What is remembered of maps that left the window (R17).
+struct MemoryConfig {
+  double max_age_s =
+      0;  ///< Nothing is remembered for longer, in steps of 1.07 s; 0: nothing at all; 0 .. 120.
+};
+
 /// An axis-aligned box in base_link, metres.
 struct Box {
   Eigen::Vector3d min_m;
@@ -67,6 +73,7 @@ struct LidarGeometry {
 struct MapperConfig {
   MapConfig map;
   WindowConfig window;
+  MemoryConfig memory;
   VehicleGeometry vehicle;
   LayersConfig layers;
   CostConfig cost;

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "core/grid.hpp"
+#include "core/memory.hpp"
 
 namespace gvom {
 
@@ -23,6 +24,14 @@ inline Int3 toroidal_origin(const Grid& grid) {
 /// No map of the window observed the column.
 inline constexpr std::int64_t kNeverSeen = INT64_MIN;
 
+/// What the fused map remembers beyond its window (R17). Null pointers where it does not.
+struct MemoryView {
+  const std::uint64_t* remembered;     ///< [column][word]: the voxel shows what is remembered.
+  const RememberedHits* hits;          ///< [cell]
+  const std::uint8_t* column_seconds;  ///< [column_in_stacks]: of the newest map that left.
+  const float* lowest_ray_m;           ///< [column_in_stacks]: of maps that left, or +infinity.
+};
+
 /// Pointers into the fused map. x, y, z are relative to the origin.
 struct FusedView {
   std::int32_t n_xy;
@@ -36,6 +45,7 @@ struct FusedView {
   const std::uint64_t* free;         ///< [column][word]: observed and not occupied (R8).
   const std::int64_t* last_seen_ns;  ///< [column]: newest stamp that observed it, or kNeverSeen (R15).
   const float* lowest_ray_m;         ///< [column_in_stacks]: lowest point of a ray (R5a), or +infinity.
+  MemoryView memory;
 
   GVOM_HD std::int32_t torus(std::int32_t i, int axis) const {
     const std::int32_t n = axis == 2 ? n_z : n_xy;

@@ -124,20 +124,36 @@ GVOM_HD inline bool is_tall(const FusedView& map, const ColumnParameters& p, std
   return top_m - ground >= p.layers.max_obstacle_height_m - p.resolution_z_m;
 }
 
+/// How low rays have been in a column that may cast a shadow and behind it: in the window for what the window
+/// has there, since rays were behind it when the vehicle was elsewhere; all that is known for what is
+/// remembered (R17).
+struct ShadowRays {
+  const FusedView& map;
+  const ColumnGrid& grid;
+  const float* lowest_ray_m;  ///< As in GroundView.
+  bool remembered;            ///< The column's ground is.
+
+  [[nodiscard]] GVOM_HD float lowest_m(std::int32_t at) const {
+    if (remembered) return lowest_ray_m[at];
+    const std::int32_t x = grid.x_of(at), y = grid.y_of(at);
+    return grid.contains(x, y) ? map.lowest_ray_m[map.stacked_column(x, y)] : kNone_m;
+  }
+};
+
 /// How high above the ground of a column rays have left it and the columns behind it, as seen from the
 /// vehicle.
 class Shadow {
  public:
-  GVOM_HD Shadow(const ColumnGrid& grid, const float* lowest_ray_m, const ColumnParameters& p, std::int32_t x,
-                 std::int32_t y, float ground_m)
-      : lowest_ray_m_(lowest_ray_m),
+  GVOM_HD Shadow(const ShadowRays& rays, const ColumnParameters& p, std::int32_t x, std::int32_t y,
+                 float ground_m)
+      : rays_(rays),
         ground_m_(static_cast<double>(ground_m)),
         obstacle_m_(p.layers.min_obstacle_height_m) {
     const SightLine line(x, y, p.vehicle_column_x, p.vehicle_column_y);
-    beside_ = line.beside(grid);
+    beside_ = line.beside(rays.grid);
     in_grid_ = line.columns() > 0;
     for (std::int32_t behind = 0; behind <= kShadowColumns; ++behind) {
-      at_[behind] = line.at(grid, -behind);
+      at_[behind] = line.at(rays.grid, -behind);
       in_grid_ = in_grid_ && at_[behind] >= 0;
     }
   }
@@ -168,10 +184,10 @@ class Shadow {
 
  private:
   [[nodiscard]] GVOM_HD double height_m(std::int32_t at) const {
-    return static_cast<double>(lowest_ray_m_[at]) - ground_m_;
+    return static_cast<double>(rays_.lowest_m(at)) - ground_m_;
   }
 
-  const float* lowest_ray_m_;
+  const ShadowRays& rays_;
   double ground_m_;
   double obstacle_m_;
   std::int32_t beside_;
@@ -181,12 +197,11 @@ class Shadow {
 
 /// Flags of a column with known ground (R11). @param own its own sums, @param around those of the 3 x 3
 /// columns
-GVOM_HD inline std::uint8_t obstacle_flags(const FusedView& map, const ColumnGrid& grid,
-                                           const float* lowest_ray_m, const ColumnParameters& p,
+GVOM_HD inline std::uint8_t obstacle_flags(const ShadowRays& behind, const ColumnParameters& p,
                                            std::int32_t x, std::int32_t y, float ground_m,
                                            const ObstacleSums& own, const ObstacleSums& around) {
   if (around.low_hits >= kShadowHits) {
-    const Shadow shadow(grid, lowest_ray_m, p, x, y, ground_m);
+    const Shadow shadow(behind, p, x, y, ground_m);
     if ((own.low_hits > 0 && shadow.is_high()) || shadow.is_low()) return kHard;
   }
   if (own.hits == 0) return 0;
@@ -194,7 +209,7 @@ GVOM_HD inline std::uint8_t obstacle_flags(const FusedView& map, const ColumnGri
   const double spare_rays = static_cast<double>(around.rays) - around.voxels;
   if (around.hits < kLeastHits || spare_hits < kLeastDensity * spare_rays) return kSoft;
   const bool dense = spare_rays > 0 && spare_hits >= p.layers.density_threshold * spare_rays;
-  return dense || is_tall(map, p, x, y, ground_m) ? kHard : kSoft;
+  return dense || is_tall(behind.map, p, x, y, ground_m) ? kHard : kSoft;
 }
 
 }  // namespace gvom

@@ -46,6 +46,8 @@ class Window {
 
   [[nodiscard]] const std::vector<WindowMap>& maps() const { return maps_; }
   [[nodiscard]] const std::vector<WindowMap>& left() const { return left_; }
+  /// That the window can have, or lose, at a time.
+  [[nodiscard]] std::size_t most_maps() const { return maps_.capacity(); }
   [[nodiscard]] int count(int lidar) const { return counts_[static_cast<std::size_t>(lidar)]; }
 
  private:

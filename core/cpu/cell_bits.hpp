@@ -45,6 +45,15 @@ inline CellBits at_least(const std::uint32_t* counts, std::int32_t least) {
   return at_least(reinterpret_cast<const std::int32_t*>(counts), least);
 }
 
+/// Whether any is set.
+inline bool any_of(const CellBits& bits) {
+  std::array<std::uint64_t, kBrickCells / 64> words;
+  std::memcpy(words.data(), bits.data(), sizeof words);
+  std::uint64_t any = 0;
+  for (const std::uint64_t word : words) any |= word;
+  return any != 0;
+}
+
 /// Calls `visit(cell)` for every set bit, in ascending order.
 template <class Visit>
 void for_each_cell(const CellBits& bits, Visit&& visit) {

@@ -56,10 +56,9 @@ void FusedMap::refresh_last_seen(std::int32_t bx, std::int32_t by, std::uint64_t
     last_seen_ns_[column_of(bx, by, __builtin_ctzll(columns))] = kNeverSeen;
 }
 
-void FusedMap::update_lowest_ray(std::int32_t bx, std::int32_t by, const Change& change) {
+void FusedMap::update_lowest_ray(std::int32_t bx, std::int32_t by, const Change& change, bool all) {
   float* const lowest_m = lowest_ray_m_.data() + stack_of(bx, by);
-  if (change.before.size[0] == 0 || change.before.stack_of_brick(bx, by) < 0)
-    return refresh_lowest_ray(bx, by, ~std::uint64_t{0}, lowest_m);
+  if (all) return refresh_lowest_ray(bx, by, ~std::uint64_t{0}, lowest_m);
   const float* const added_m = lowest_rays(change.added->view, bx, by);
   for (int c = 0; added_m != nullptr && c < kBrickColumns; ++c) lowest_m[c] = lower(lowest_m[c], added_m[c]);
   std::uint64_t stale = 0;

@@ -1,5 +1,6 @@
 // The fused map (R7, R8) on the CPU, kept up to date by adding the map that came and subtracting those
-// that left. Counts are integers, so the result is that of summing the window afresh.
+// that left. Counts are integers, so the result is that of summing the window afresh. Where the window
+// observes nothing, voxels show what is remembered (R17).
 #pragma once
 
 #include <cstdint>
@@ -7,6 +8,7 @@
 
 #include "core/cell.hpp"
 #include "core/config.hpp"
+#include "core/cpu/memory.hpp"
 #include "core/format/brick_map.hpp"
 #include "core/fused_view.hpp"
 #include "core/lowest_ray.hpp"
@@ -16,7 +18,7 @@ namespace gvom::cpu {
 
 class FusedMap {
  public:
-  FusedMap(const MapConfig& map, const WindowConfig& window, int min_hits);
+  explicit FusedMap(const MapperConfig& config);
 
   /// Fuses a map. Its memory must stay until the map is among `window().left()`.
   /// A result other than `added` leaves everything as it was; the map is then not kept.
@@ -49,22 +51,37 @@ class FusedMap {
     float least_m;       // the minimum that left: none can be lower
   };
 
+  // Of the voxels of a brick.
+  struct VoxelBits {
+    CellBits occupied;
+    CellBits free;
+  };
+
   void update_brick_column(std::int32_t bx, std::int32_t by, const Change& change);
   bool update_brick(const Int3& brick, std::uint32_t slot, const Change& change);
+  void remember_brick(const Int3& brick, std::uint32_t slot, const Change& change);
   void refill(const Int3& brick, std::uint32_t slot);
   void add_brick(std::uint32_t slot, const BrickMapView& map, std::int32_t brick);
   void subtract_brick(std::uint32_t slot, const BrickMapView& map, std::int32_t brick,
                       const Int3& world_brick);
   void restore_minima(const Int3& brick, std::uint32_t slot);
+  [[nodiscard]] VoxelBits read_bits(std::uint32_t slot) const;
   void rebuild_masks(const Int3& brick, std::uint32_t slot);
+  void write_mask(const Int3& brick, const CellBits& bits, std::vector<std::uint64_t>& mask) const;
   void update_last_seen(std::int32_t bx, std::int32_t by, const Change& change, bool all);
   void refresh_last_seen(std::int32_t bx, std::int32_t by, std::uint64_t columns, std::int64_t newest_ns);
-  void update_lowest_ray(std::int32_t bx, std::int32_t by, const Change& change);
+  void update_lowest_ray(std::int32_t bx, std::int32_t by, const Change& change, bool all);
   void refresh_lowest_ray(std::int32_t bx, std::int32_t by, std::uint64_t columns, float* lowest_m);
   [[nodiscard]] std::uint64_t observed_columns(const BrickMapView& map, std::int32_t bx,
                                                std::int32_t by) const;
+  BrickCells cells_of(std::uint32_t slot) {
+    const std::size_t begin = std::size_t{slot} * kBrickCells;
+    return {hits_.data() + begin, passes_.data() + begin, min_height_m_.data() + begin};
+  }
   FusedCell cell_at(std::size_t i) { return {hits_[i], passes_[i], min_height_m_[i]}; }
   [[nodiscard]] std::uint32_t slot_of(const Int3& world_brick) const;
+  // What the window says of the voxel at `i` of the arrays.
+  [[nodiscard]] VoxelRecord window_voxel(std::size_t i) const;
   /// Where the columns of a stack begin in `lowest_ray_m_`.
   [[nodiscard]] std::size_t stack_of(std::int32_t bx, std::int32_t by) const;
   [[nodiscard]] std::size_t column_of(std::int32_t bx, std::int32_t by, int column) const;
@@ -76,13 +93,15 @@ class FusedMap {
   std::vector<std::uint32_t> hits_;
   std::vector<std::uint32_t> passes_;
   std::vector<float> min_height_m_;
-  std::vector<std::uint8_t> live_;        // per brick: it has an observed voxel
-  std::vector<std::uint16_t> hit_cells_;  // per brick: voxels with hits
+  std::vector<std::uint8_t> live_;        // per brick: the window observes a voxel
+  std::vector<std::uint16_t> hit_cells_;  // per brick: voxels with hits in the window
   std::vector<std::uint64_t> occupied_;
   std::vector<std::uint64_t> free_;
+  std::vector<std::uint64_t> remembered_;  // nothing in it where there is no memory
   std::vector<std::int64_t> last_seen_ns_;
   std::vector<float> lowest_ray_m_;  // column_in_stacks
   std::vector<StaleMinimum> stale_;
+  Memory memory_;
 };
 
 }  // namespace gvom::cpu

@@ -14,6 +14,11 @@ BrickMapShape FusedMap::shape() const {
   return shape;
 }
 
+VoxelRecord FusedMap::window_voxel(std::size_t i) const {
+  if (memory_.on() && memory_.shows(i)) return kUnknownVoxel;
+  return {hits_[i], passes_[i], min_height_m_[i]};
+}
+
 void FusedMap::write(const BrickMapArrays& out) const {
   std::fill_n(out.directory, grid_.brick_slots(), -1);
   const Int3 n = grid_.bricks();
@@ -31,9 +36,10 @@ void FusedMap::write(const BrickMapArrays& out) const {
         for (std::size_t cell = 0; cell < kBrickCells; ++cell) {
           const std::size_t i = std::size_t{place} * kBrickCells + cell;
           std::int32_t& lookup = out.lookup[static_cast<std::size_t>(brick) * kBrickCells + cell];
-          if (hits_[i] + passes_[i] != 0) columns |= std::uint64_t{1} << (cell >> 3);
-          lookup = hits_[i] > 0 ? record : free_lookup(passes_[i]);
-          if (hits_[i] > 0) out.records[record++] = {hits_[i], passes_[i], min_height_m_[i]};
+          const VoxelRecord voxel = window_voxel(i);
+          if (voxel.hits + voxel.passes != 0) columns |= std::uint64_t{1} << (cell >> 3);
+          lookup = voxel.hits > 0 ? record : free_lookup(voxel.passes);
+          if (voxel.hits > 0) out.records[record++] = voxel;
         }
         out.directory[slot] = brick;
         out.columns[brick++] = columns;

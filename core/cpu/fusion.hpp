@@ -9,8 +9,7 @@ namespace gvom::cpu {
 
 class Fusion : public FusionBackend {
  public:
-  explicit Fusion(const MapperConfig& config)
-      : map_(config.map, config.window, config.layers.min_hits), layer_maker_(config) {}
+  explicit Fusion(const MapperConfig& config) : map_(config), layer_maker_(config) {}
 
   DeviceExpected<AddResult> add(const WindowMap& map) override { return map_.add(map); }
   DeviceExpected<void> make_layers(const LayerArrays& out) override {

@@ -99,8 +99,8 @@ void GroundFinder::read_columns(const FusedView& map, const ColumnParameters& p,
   for (std::int32_t y = 0, i = 0; y < grid_.n_xy; ++y)
     for (std::int32_t x = 0; x < grid_.n_xy; ++x, ++i) {
       const auto at = static_cast<std::size_t>(grid_.at(x, y));
-      lowest_ray_m_[at] = map.lowest_ray_m[map.stacked_column(x, y)];
-      const ColumnGround column = read_ground(map, p, x, y, lowest_ray_m_[at]);
+      const ColumnGround column = read_ground(map, p, x, y);
+      lowest_ray_m_[at] = column.lowest_ray_m;
       ground_m_[at] = column.ground_m;
       lowest_m_[at] = column.lowest_m;
       out.inferred_height[i] = column.inferred_height;
@@ -144,7 +144,7 @@ void GroundFinder::ask_around(std::int32_t at, std::int32_t i, const LayerArrays
   const float between_m = ground_between_rims(view(), at);
   const float height_m = height_of_ground_m(ground_m_[a], lowest_m_[a], stands_out_[a] != 0, between_m);
   out.height[i] = height_m == kNone_m ? kUnknown : height_m;
-  if (height_m == kNone_m) out.visibility[i] = static_cast<std::uint8_t>(Visibility::free_only);
+  if (height_m == kNone_m) out.visibility[i] = without_height(out.visibility[i]);
 }
 
 }  // namespace gvom::cpu

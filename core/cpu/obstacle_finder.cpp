@@ -56,7 +56,8 @@ void ObstacleFinder::find(const FusedView& map, const ColumnParameters& p, const
       ObstacleSums around{};
       for (std::int32_t dy = -1; dy <= 1; ++dy)
         for (std::int32_t dx = -1; dx <= 1; ++dx) around.add(own[dy * grid.pitch() + dx]);
-      out.flags[i] |= obstacle_flags(map, grid, ground.lowest_ray_m, p, x, y, out.height[i], *own, around);
+      const ShadowRays rays{map, grid, ground.lowest_ray_m, is_remembered(out.visibility[i])};
+      out.flags[i] |= obstacle_flags(rays, p, x, y, out.height[i], *own, around);
     }
   }
 }

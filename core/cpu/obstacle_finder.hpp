@@ -12,7 +12,7 @@ class ObstacleFinder {
  public:
   explicit ObstacleFinder(std::int32_t n_xy);
 
-  /// Reads `height`; writes `obstacle_density`, `clearance` and the flags HARD and SOFT.
+  /// Reads `height` and `visibility`; writes `obstacle_density`, `clearance` and the flags HARD and SOFT.
   void find(const FusedView& map, const ColumnParameters& p, const GroundView& ground,
             const LayerArrays& out);
 

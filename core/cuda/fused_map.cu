@@ -48,8 +48,8 @@ std::size_t FusedMap::columns() const {
 }
 
 FusedView FusedMap::view() const {
-  return {grid_.size[0],        grid_.size[2], words_, toroidal_origin(grid_), bricks_.hits, bricks_.passes,
-          bricks_.min_height_m, occupied_,     free_,  last_seen_ns_,          lowest_ray_m_};
+  return {grid_.size[0],        grid_.size[2], words_, toroidal_origin(grid_), bricks_.hits,  bricks_.passes,
+          bricks_.min_height_m, occupied_,     free_,  last_seen_ns_,          lowest_ray_m_, {}};
 }
 
 void FusedMap::clear() {

@@ -53,9 +53,8 @@ struct ReadColumns {
     const FusedView& map = tick->map;
     const LayerArrays& out = tick->out;
     const std::int32_t x = columns.x(i), y = columns.y(i), at = columns.at(i);
-    const float lowest_ray_m = map.lowest_ray_m[map.stacked_column(x, y)];
-    const ColumnGround column = read_ground(map, tick->parameters, x, y, lowest_ray_m);
-    columns.lowest_ray_m[at] = lowest_ray_m;
+    const ColumnGround column = read_ground(map, tick->parameters, x, y);
+    columns.lowest_ray_m[at] = column.lowest_ray_m;
     columns.ground_m[at] = column.ground_m;
     columns.lowest_m[at] = column.lowest_m;
     out.inferred_height[i] = column.inferred_height;
@@ -139,7 +138,7 @@ struct WriteHeights {
     const bool known = height_m != kNone_m;
     out.height[i] = known ? height_m : kUnknown;
     columns.plane_m[at] = known && ground_m != kNone_m ? height_m : kUnknown;
-    if (hangs && !known) out.visibility[i] = static_cast<std::uint8_t>(Visibility::free_only);
+    if (hangs && !known) out.visibility[i] = without_height(out.visibility[i]);
     ColumnObstacles over{};
     if (known) over = read_obstacles(tick->map, tick->parameters, columns.x(i), columns.y(i), height_m);
     columns.obstacles[at] = over.sums;
@@ -162,7 +161,7 @@ struct JudgeColumns {
     out.slope_y[i] = plane.slope_y;
     out.slope[i] = plane.slope;
     out.roughness[i] = plane.roughness;
-    out.flags[i] |= static_cast<std::uint8_t>((plane.steep ? kSteep : 0) | obstacles(x, y, out.height[i]));
+    out.flags[i] |= static_cast<std::uint8_t>((plane.steep ? kSteep : 0) | obstacles(i));
     const float depth_m = hole_m(x, y);
     out.negative_delta[i] = depth_m;
     columns.shows_hole[at] = depth_m > 0 ? 1 : 0;
@@ -187,15 +186,16 @@ struct JudgeColumns {
     return rim_height_m(columns.ground_m[at], columns.is_rim[at] != 0);
   }
 
-  [[nodiscard]] __device__ std::uint8_t obstacles(std::int32_t x, std::int32_t y, float height_m) const {
-    if (isnan(height_m)) return 0;
+  [[nodiscard]] __device__ std::uint8_t obstacles(std::int32_t i) const {
+    if (isnan(tick->out.height[i])) return 0;
     const ColumnGrid& grid = columns.grid;
+    const std::int32_t x = columns.x(i), y = columns.y(i);
     const ObstacleSums* own = columns.obstacles + grid.at(x, y);
     ObstacleSums around{};
     for (std::int32_t dy = -1; dy <= 1; ++dy)
       for (std::int32_t dx = -1; dx <= 1; ++dx) around.add(own[dy * grid.pitch() + dx]);
-    return obstacle_flags(tick->map, grid, columns.lowest_ray_m, tick->parameters, x, y, height_m, *own,
-                          around);
+    const ShadowRays rays{tick->map, grid, columns.lowest_ray_m, is_remembered(tick->out.visibility[i])};
+    return obstacle_flags(rays, tick->parameters, x, y, tick->out.height[i], *own, around);
   }
 
   [[nodiscard]] __device__ Plane fit(std::int32_t at) const {

@@ -98,6 +98,11 @@ struct BrickMapView {
     return slot < 0 ? -1 : directory[slot];
   }
 
+  /// The lookup values of a brick's voxels.
+  [[nodiscard]] GVOM_HD const std::int32_t* lookup_of(std::int32_t brick) const {
+    return lookup + static_cast<std::size_t>(brick) * kBrickCells;
+  }
+
   /// What the map says of a world voxel; without hits `min_height_m` is +infinity, without hits and passes
   /// the voxel is unknown, as it is where the grid does not reach.
   [[nodiscard]] VoxelRecord voxel_at(const Int3& world) const {
@@ -105,8 +110,7 @@ struct BrickMapView {
         brick_at({floor_to_brick(world[0]) / kBrickEdge, floor_to_brick(world[1]) / kBrickEdge,
                   floor_to_brick(world[2]) / kBrickEdge});
     if (brick < 0) return kUnknownVoxel;
-    const std::int32_t value =
-        lookup[static_cast<std::size_t>(brick) * kBrickCells + cell_in_brick(world[0], world[1], world[2])];
+    const std::int32_t value = lookup_of(brick)[cell_in_brick(world[0], world[1], world[2])];
     if (value >= 0) return records[value];
     return {0, passes_of(value), kUnknownVoxel.min_height_m};
   }
@@ -135,7 +139,7 @@ struct BrickMapView {
       const Int3 corner = {grid.origin[0] + s % n[0] * kBrickEdge,
                            grid.origin[1] + s / n[0] % n[1] * kBrickEdge,
                            grid.origin[2] + s / (n[0] * n[1]) * kBrickEdge};
-      const std::int32_t* cells = lookup + static_cast<std::size_t>(directory[slot]) * kBrickCells;
+      const std::int32_t* cells = lookup_of(directory[slot]);
       for (std::int32_t i = 0; i < kBrickCells; ++i)
         if (cells[i] >= 0)
           visit(Int3{corner[0] + i / kBrickColumns, corner[1] + i / kBrickEdge % kBrickEdge,

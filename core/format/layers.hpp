@@ -34,7 +34,17 @@ constexpr std::size_t layer_value_bytes(LayerId id) {
 enum ColumnFlag : std::uint8_t { kHard = 1, kSoft = 2, kNegative = 4, kSteep = 8, kAssumed = 16 };
 
 /// Values of the layer `visibility` (R15).
-enum class Visibility : std::uint8_t { unobserved = 0, free_only = 1, ground_assumed = 2, ground_seen = 3 };
+enum class Visibility : std::uint8_t {
+  unobserved = 0,
+  free_only = 1,
+  ground_assumed = 2,
+  ground_seen = 3,
+  remembered = 4,  ///< Of maps older than the window (R17); `last_seen` says how old it is.
+};
+
+constexpr bool is_remembered(std::uint8_t visibility) {
+  return visibility == static_cast<std::uint8_t>(Visibility::remembered);
+}
 
 /// Where layers are written: arrays of n_xy * n_xy values, indexed [y][x] from the grid's origin; each is the
 /// LayerId of its name. Unknown is NaN in float layers.

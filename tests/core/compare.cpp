@@ -107,6 +107,9 @@ std::string column_difference(const FusedView& map, const oracle::VoxelBox& voxe
     const bool is_occupied = voxel.hits >= static_cast<unsigned>(min_hits);
     if (occupied != is_occupied) return text("occupied is ", occupied) + place(x, y, z);
     if (free != (voxel.observed() && !is_occupied)) return text("free is ", free) + place(x, y, z);
+    const std::uint64_t* const memory = map.memory.remembered;
+    const bool remembered = memory != nullptr && (memory[word] >> (z % 64) & 1) != 0;
+    if (remembered != voxel.remembered) return text("remembered is ", remembered) + place(x, y, z);
   }
   return {};
 }
@@ -128,9 +131,9 @@ std::string difference(const BrickMapView& map, const oracle::BufferMap& expecte
 }
 
 std::string difference(const FusedView& map, const oracle::Fusion& expected, int min_hits) {
-  const oracle::VoxelBox voxels = expected.voxels();
+  const oracle::VoxelBox voxels = expected.shown_voxels();
   const std::vector<std::int64_t> newest_ns = oracle::newest_stamps(expected);
-  oracle::ColumnHeights lowest_ray = expected.lowest_ray();
+  oracle::ColumnHeights lowest_ray = expected.lowest_ray(), remembered_ray = expected.remembered_ray();
   for (int y = 0; y < map.n_xy; ++y)
     for (int x = 0; x < map.n_xy; ++x) {
       std::string wrong = column_difference(map, voxels, min_hits, x, y);
@@ -141,6 +144,10 @@ std::string difference(const FusedView& map, const oracle::Fusion& expected, int
       const float found_m = map.lowest_ray_m[map.stacked_column(x, y)];
       if (!same_bits(found_m, *lowest_ray.at(x, y)))
         return text("lowest ray ", found_m, ", due: ", *lowest_ray.at(x, y)) + place(x, y, 0);
+      if (map.memory.lowest_ray_m == nullptr) continue;
+      const float remembered_m = map.memory.lowest_ray_m[map.stacked_column(x, y)];
+      if (!same_bits(remembered_m, *remembered_ray.at(x, y)))
+        return text("remembered ray ", remembered_m, ", due: ", *remembered_ray.at(x, y)) + place(x, y, 0);
     }
   return {};
 }

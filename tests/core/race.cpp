@@ -30,7 +30,7 @@ class Race {
             std::move(open_fusion(backend, {scenario.config, int(scenario.lidars.size()), kMostReturns, {}})
                           .value()
                           .backend)),
-        expected_(scenario.config.window) {
+        expected_(scenario.config.window, scenario.config.memory) {
     for (const StampedPose& pose : scenario.odometry) odometry_.add(pose);
     const MapperConfig& config = scenario.config;
     for (const LidarGeometry& lidar : scenario.lidars) {
@@ -55,7 +55,7 @@ class Race {
     fuser_.reset();
     for (const WindowMap& left : fuser_.window().left()) kept_.erase(left.token);
     REQUIRE(kept_.empty());
-    expected_ = oracle::Fusion(scenario_.config.window);
+    expected_ = oracle::Fusion(scenario_.config.window, scenario_.config.memory);
   }
 
   void take(const Arrival& arrival) {

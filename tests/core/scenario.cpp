@@ -13,7 +13,6 @@ namespace gvom::test {
 
 namespace {
 
-constexpr std::int64_t kTick_ns = 100'000'000;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 MapperConfig random_config(Random& random, const ScenarioSize& size) {
@@ -27,6 +26,7 @@ MapperConfig random_config(Random& random, const ScenarioSize& size) {
                                   : (size.on_faces ? random.pick({0.5, 0.4}) : random.pick({0.1, 0.3}));
   config.window.buffer_size = random.integer(1, 6);
   config.window.max_age_s = random.pick({0.0, 0.25, 0.5, 2.0, 3600.0});
+  config.memory.max_age_s = size.max_memory_s > 0 ? random.uniform(0.1, size.max_memory_s) : 0;
   config.vehicle.radius_m = random.pick({0.0, 1.0, 2.0});
   config.vehicle.base_height_m = random.pick({0.0, 0.3});
   if (random.chance(0.3)) config.vehicle.body = Box{{-1.0, -0.5, -0.5}, {1.5, 0.5, 1.0}};
@@ -93,7 +93,7 @@ std::vector<StampedPose> random_drive(Random& random, const MapConfig& map, cons
     else if (roll < 0.65)
       for (int a = 0; a < 3; ++a)
         away_m[a] = away_m[a] != 0 ? 0 : extent_m[a] * random.pick({0.0, 0.5, 1.0, 2.5, -0.5, -1.0, -2.0});
-    StampedPose pose{i * kTick_ns, {home_m + away_m, Eigen::Quaterniond::Identity()}};
+    StampedPose pose{i * size.tick_ns, {home_m + away_m, Eigen::Quaterniond::Identity()}};
     if (!size.on_faces) {
       pose.T_odom_base.translation_m +=
           Eigen::Vector3d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)) * 0.3;
@@ -106,15 +106,15 @@ std::vector<StampedPose> random_drive(Random& random, const MapConfig& map, cons
 
 // A drive over the ground of a world, from which the vehicle is now and then elsewhere at once.
 std::vector<StampedPose> drive_over(Random& random, const RandomWorld& world, const MapConfig& map,
-                                    int sweeps) {
+                                    const ScenarioSize& size) {
   double x_m = random.uniform(-100, 100), y_m = random.uniform(-100, 100);
   std::vector<StampedPose> drive;
-  for (int i = 0; i <= sweeps; ++i) {
+  for (int i = 0; i <= size.sweeps; ++i) {
     const double step_m = (random.chance(0.1) ? map.size_xy : 3) * map.resolution_xy_m;
     x_m += random.uniform(-step_m, step_m);
     y_m += random.uniform(-step_m, step_m);
     const Eigen::Vector3d at_m(x_m, y_m, world.ground_m(x_m, y_m) + 0.3);
-    drive.push_back({i * kTick_ns, {at_m, random_rotation(random, 0.1)}});
+    drive.push_back({i * size.tick_ns, {at_m, random_rotation(random, 0.1)}});
   }
   return drive;
 }
@@ -150,7 +150,7 @@ Sweep random_sweep(Random& random, const MapConfig& map, const ScenarioSize& siz
   Sweep sweep;
   sweep.stamp_ns = stamp_ns;
   const int times = size.on_faces ? 1 : random.integer(1, 5);
-  for (int i = 0; i < times; ++i) sweep.times_ns.push_back(stamp_ns - (times - 1 - i) * kTick_ns / 7);
+  for (int i = 0; i < times; ++i) sweep.times_ns.push_back(stamp_ns - (times - 1 - i) * size.tick_ns / 7);
   const int returns = random.chance(0.05) ? 0 : size.returns;
   for (int i = 0; i < returns; ++i) {
     sweep.returns.push_back(random_return(random, map, size.on_faces));
@@ -197,15 +197,15 @@ Scenario random_scenario(std::uint64_t seed, const ScenarioSize& size) {
   const MapConfig& map = scenario.config.map;
   std::optional<RandomWorld> world;
   if (!size.on_faces && random.chance(0.6)) world.emplace(random, map);
-  scenario.odometry = world ? drive_over(random, *world, map, size.sweeps) : random_drive(random, map, size);
+  scenario.odometry = world ? drive_over(random, *world, map, size) : random_drive(random, map, size);
   const int lidars = random.integer(1, 3);
   std::vector<Arrival> arrivals;
   for (int lidar = 0; lidar < lidars; ++lidar) {
     scenario.lidars.push_back(random_lidar(random, map, size.on_faces));
-    const std::int64_t period_ns = kTick_ns * random.integer(1, 3);
+    const std::int64_t period_ns = size.tick_ns * random.integer(1, 3);
     const std::int64_t offset_ns =
         size.on_faces || random.chance(0.5) ? 0 : random.integer(1, 99) * 1'000'000;
-    for (std::int64_t t = offset_ns; t <= (size.sweeps + 2) * kTick_ns; t += period_ns) {
+    for (std::int64_t t = offset_ns; t <= (size.sweeps + 2) * size.tick_ns; t += period_ns) {
       arrivals.push_back({lidar, random_sweep(random, map, size, t)});
       if (world) look_at(random, *world, scenario, scenario.lidars.back(), arrivals.back().sweep);
     }

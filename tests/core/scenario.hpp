@@ -30,6 +30,9 @@ struct ScenarioSize {
   /// Everything on whole and half voxels: rays along axes and diagonals, through edges and corners; also of
   /// edges such as 0.4 m, where a division and a product with the reciprocal name different voxels (R1).
   bool on_faces;
+  /// Up to so long maps that left the window are remembered (R17); 0: they are not.
+  double max_memory_s = 0;
+  std::int64_t tick_ns = 100'000'000;  ///< From sweep to sweep of the fastest lidar.
 };
 
 Scenario random_scenario(std::uint64_t seed, const ScenarioSize& size);

@@ -33,5 +33,18 @@ TEST_CASE("Random drives through a grid that is no power of two give the oracle'
   race(Backend::cpu, {24, 72, 30, 150, false}, 1200, seed_count(6));
 }
 
+TEST_CASE("Random drives with a memory give the oracle's bits") {
+  race(Backend::cpu, {8, 8, 60, 60, false, 3}, 3000, seed_count(30));
+  race(Backend::cpu, {24, 72, 60, 150, false, 4}, 3100, seed_count(6));
+  CHECK(race(Backend::cpu, {64, 64, 40, 250, false, 3}, 3200, 6) == kAllFlags);
+  race(Backend::cpu, {64, 64, 40, 250, true, 3}, 3300, seed_count(4));
+}
+
+TEST_CASE("Random drives with a memory of many seconds give the oracle's bits") {
+  race(Backend::cpu, {8, 8, 60, 60, true, 20, 700'000'000}, 3400, seed_count(30));
+  race(Backend::cpu, {64, 8, 60, 150, false, 30, 700'000'000}, 3500, seed_count(8));
+  race(Backend::cpu, {64, 64, 40, 250, false, 120, 5'000'000'000}, 3600, seed_count(4));
+}
+
 }  // namespace
 }  // namespace gvom::test

@@ -55,6 +55,15 @@ class ColumnVoxels {
   }
   [[nodiscard]] bool solid(int z) const { return occupied(z) && !worn(z); }
 
+  /// The voxel of the column's lowest return (R9, R17), or -1: the lowest solid one, unless that is
+  /// remembered and the window has a solid one right above.
+  [[nodiscard]] int ground() const {
+    const int z = lowest(&ColumnVoxels::solid);
+    const bool twice = z >= 0 && z + 1 < count() && at(z).remembered && !at(z + 1).remembered && solid(z + 1);
+    return twice ? z + 1 : z;
+  }
+  [[nodiscard]] bool remembers_ground() const { return ground() >= 0 && at(ground()).remembered; }
+
   /// The lowest voxel that `is` so, or -1.
   [[nodiscard]] int lowest(bool (ColumnVoxels::*is)(int) const) const {
     for (int z = 0; z < count(); ++z)

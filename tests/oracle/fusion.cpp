@@ -17,9 +17,20 @@ bool is_newer(const BufferMap* a, const BufferMap* b) {
 bool Fusion::add(const BufferMap& map) {
   for (const BufferMap& other : maps_)
     if (other.lidar == map.lidar && other.stamp_ns == map.stamp_ns) return false;
+  std::vector<BufferMap> left;
+  if (!maps_.empty())
+    for (const BufferMap* one : window()) left.push_back(*one);
   maps_.push_back(map);
   const std::vector<const BufferMap*> maps = window();
-  return std::find(maps.begin(), maps.end(), &maps_.back()) != maps.end();
+  if (std::find(maps.begin(), maps.end(), &maps_.back()) == maps.end()) return false;
+  const auto stayed = [&](const BufferMap& one) {
+    return std::any_of(maps.begin(), maps.end(), [&](const BufferMap* other) {
+      return other->lidar == one.lidar && other->stamp_ns == one.stamp_ns;
+    });
+  };
+  left.erase(std::remove_if(left.begin(), left.end(), stayed), left.end());
+  memory_.step(maps.front()->grid, maps.front()->stamp_ns, left);
+  return true;
 }
 
 std::vector<const BufferMap*> Fusion::window() const {
@@ -47,6 +58,17 @@ VoxelBox Fusion::voxels() const {
       voxel.min_height_m = std::min(voxel.min_height_m, one.voxel.min_height_m);
     }
   return sum;
+}
+
+ColumnHeights Fusion::remembered_ray() const {
+  ColumnHeights none(window().front()->grid);
+  return memory_.on() ? memory_.lowest_ray() : none;
+}
+
+VoxelBox Fusion::shown_voxels() const {
+  VoxelBox shown = voxels();
+  memory_.add_to(shown);
+  return shown;
 }
 
 ColumnHeights Fusion::lowest_ray() const {

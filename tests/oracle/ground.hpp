@@ -13,7 +13,8 @@ struct FusedColumns {
   const MapperConfig& config;
   const VoxelBox& voxels;
   const BufferMap& newest;             ///< Of the window: its pose and stamp are the layers'.
-  const Columns<float>& lowest_ray_m;  ///< R5a.
+  const Columns<float>& lowest_ray_m;  ///< R5a, with what is remembered (R17).
+  const Columns<float>& window_ray_m;  ///< R5a, of the window alone.
 
   [[nodiscard]] ColumnVoxels column(int x, int y) const { return {config.layers, voxels, x, y}; }
 };

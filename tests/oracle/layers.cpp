@@ -15,9 +15,10 @@ namespace gvom::oracle {
 namespace {
 
 constexpr std::int64_t kNever_ns = INT64_MIN;
+constexpr std::int64_t kSecond_ns = 1 << 30;  // of the memory
 
 // R10, R15, and what R9 found.
-void write_ground(const FusedColumns& map, const Ground& ground, int x, int y, Layers& out) {
+void write_ground(const FusedColumns& map, const Ground& ground, bool of_window, int x, int y, Layers& out) {
   const std::size_t i = out.index(x, y);
   const ColumnVoxels column = map.column(x, y);
   const bool solid = column.lowest(&ColumnVoxels::solid) >= 0;
@@ -28,7 +29,8 @@ void write_ground(const FusedColumns& map, const Ground& ground, int x, int y, L
   out.inferred_height[i] =
       free < 0 ? NAN : static_cast<float>((map.newest.grid.origin[2] + free) * map.config.map.resolution_z_m);
   out.flags[i] = assumed ? kAssumed : 0;
-  out.visibility[i] = assumed ? 2 : solid && known ? 3 : solid || free >= 0 ? 1 : 0;
+  const bool remembered = solid ? column.remembers_ground() : free >= 0 && !of_window;
+  out.visibility[i] = assumed ? 2 : remembered ? 4 : solid && known ? 3 : solid || free >= 0 ? 1 : 0;
 }
 
 // R12.
@@ -50,13 +52,37 @@ void fit_plane(const MapperConfig& config, const Ground& ground, int x, int y, L
 }
 
 // R15.
-void write_last_seen(const Fusion& fusion, Layers& out) {
+void write_last_seen(const FusedColumns& map, const Fusion& fusion, Layers& out) {
   const std::vector<std::int64_t> newest_ns = newest_stamps(fusion);
-  const std::int64_t stamp_ns = fusion.window().front()->stamp_ns;
-  for (std::size_t i = 0; i < newest_ns.size(); ++i)
-    out.last_seen[i] = newest_ns[i] == kNever_ns
-                           ? NAN
-                           : static_cast<float>(static_cast<double>(stamp_ns - newest_ns[i]) * 1e-9);
+  const std::vector<std::int64_t> seconds = fusion.memory().column_seconds();  // empty where it is off
+  const auto since = [&](std::int64_t stamp_ns) {
+    return static_cast<float>(static_cast<double>(map.newest.stamp_ns - stamp_ns) * 1e-9);
+  };
+  each_column(out.n, [&](int x, int y) {
+    const std::size_t i = out.index(x, y);
+    const ColumnVoxels column = map.column(x, y);
+    const bool free = column.lowest(&ColumnVoxels::free) >= 0;
+    out.last_seen[i] = NAN;
+    if (column.remembers_ground())
+      out.last_seen[i] = since(column.at(column.ground()).second * kSecond_ns);
+    else if (newest_ns[i] != kNever_ns)
+      out.last_seen[i] = since(newest_ns[i]);
+    else if (free || column.ground() >= 0)
+      out.last_seen[i] = since(seconds[i] * kSecond_ns);
+  });
+}
+
+// What the layers of a column are made of: where the window has its ground, the rays of the window alone
+// (R17).
+void find_rays(const Fusion& fusion, const FusedColumns& map, Columns<float>& all_m,
+               Columns<float>& window_m) {
+  ColumnHeights of_window = fusion.lowest_ray(), remembered = fusion.remembered_ray();
+  each_column(all_m.n(), [&](int x, int y) {
+    const ColumnVoxels column = map.column(x, y);
+    const bool alone = column.ground() >= 0 && !column.remembers_ground();
+    window_m.set(x, y, *of_window.at(x, y));
+    all_m.set(x, y, alone ? *of_window.at(x, y) : std::min(*of_window.at(x, y), *remembered.at(x, y)));
+  });
 }
 
 ColumnAt vehicle_column(const BufferMap& newest) {
@@ -122,16 +148,18 @@ std::vector<std::int64_t> newest_stamps(const Fusion& fusion) {
 }
 
 Layers make_layers(const MapperConfig& config, const Fusion& fusion) {
-  const VoxelBox voxels = fusion.voxels();
+  const VoxelBox voxels = fusion.shown_voxels();
   const BufferMap& newest = *fusion.window().front();
   Layers out(config.map.size_xy);
-  Columns<float> lowest_ray_m(out.n, INFINITY);
-  ColumnHeights fused_rays = fusion.lowest_ray();
-  each_column(out.n, [&](int x, int y) { lowest_ray_m.set(x, y, *fused_rays.at(x, y)); });
-  const FusedColumns map{config, voxels, newest, lowest_ray_m};
+  Columns<float> lowest_ray_m(out.n, INFINITY), window_ray_m(out.n, INFINITY);
+  const FusedColumns map{config, voxels, newest, lowest_ray_m, window_ray_m};
+  find_rays(fusion, map, lowest_ray_m, window_ray_m);
   const Ground ground = find_ground(map);
-  each_column(out.n, [&](int x, int y) { write_ground(map, ground, x, y, out); });
-  write_last_seen(fusion, out);
+  const std::vector<std::int64_t> newest_ns = newest_stamps(fusion);
+  each_column(out.n, [&](int x, int y) {
+    write_ground(map, ground, newest_ns[out.index(x, y)] != kNever_ns, x, y, out);
+  });
+  write_last_seen(map, fusion, out);
   const ColumnAt vehicle = vehicle_column(newest);
   find_obstacles(map, ground, vehicle, out);
   each_column(out.n, [&](int x, int y) { fit_plane(config, ground, x, y, out); });
