@@ -1,5 +1,5 @@
 // What can be configured about the map. Default, unit, range and meaning stand on each field and
-// nowhere else; the YAML keys carry the fields' names (MAPPING rules R1..R16).
+// nowhere else; the YAML keys carry the fields' names (MAPPING rules R1..R17).
 #pragma once
 
 #include <Eigen/Geometry>
@@ -24,8 +24,7 @@ struct WindowConfig {
 
 /// What is remembered of maps that left the window (R17).
 struct MemoryConfig {
-  double max_age_s =
-      0;  ///< Nothing is remembered for longer, in steps of 1.07 s; 0: nothing at all; 0 .. 120.
+  double max_age_s = 0;  ///< Nothing is remembered for longer; 0: nothing at all; 0 .. 120.
 };
 
 /// An axis-aligned box in base_link, metres.

@@ -75,6 +75,10 @@ GVOM_HD inline RememberedHits with_record(RememberedHits cell, const VoxelRecord
 using RememberedPasses = std::uint16_t;
 inline constexpr std::uint32_t kMostPasses = 255;
 
+/// Of a voxel in a map, as many as can be added at a time.
+GVOM_HD inline std::uint16_t rememberable(std::uint32_t passes) {
+  return static_cast<std::uint16_t>(passes < kMostPasses ? passes : kMostPasses);
+}
 GVOM_HD inline std::uint32_t passes_in(RememberedPasses cell) {
   return cell >> 8;
 }
@@ -82,7 +86,7 @@ GVOM_HD inline std::uint8_t second_in(RememberedPasses cell) {
   return static_cast<std::uint8_t>(cell);
 }
 
-/// Adds the passes of a map that left, at most `kMostPasses`; without branches, since a CPU does many at
+/// Adds `rememberable` passes of a map that left; without branches, since a CPU does many at
 /// once.
 GVOM_HD inline RememberedPasses with_passes(RememberedPasses cell, std::uint16_t passes, std::uint8_t second,
                                             std::uint8_t now) {
@@ -118,6 +122,17 @@ GVOM_HD inline VoxelRecord shown_voxel(const RememberedHits& hits, RememberedPas
   if (passed && pass_age < hit_age) return {0, passes_in(passes), kNoHeight_m};
   const std::uint32_t also = passed && pass_age == hit_age ? passes_in(passes) : 0;
   return {hits.hits(), hits.passes() + also, hits.min_height_m};
+}
+
+/// How much higher a map's rays are remembered in a stack of bricks: what an error of its attitude may have
+/// lowered them by, for each metre from the middle of its grid, near which the vehicle was.
+inline constexpr double kDoubtPerRange = 0.004;
+GVOM_HD inline float doubt_of_rays_m(const Grid& grid, std::int32_t bx, std::int32_t by) {
+  const Int3 n = grid.bricks();
+  const double dx = bx - grid.origin[0] / kBrickEdge + 0.5 - 0.5 * n[0];
+  const double dy = by - grid.origin[1] / kBrickEdge + 0.5 - 0.5 * n[1];
+  return static_cast<float>(kDoubtPerRange *
+                            (kBrickEdge * grid.resolution_m[0] * std::sqrt(dx * dx + dy * dy)));
 }
 
 /// Rays are remembered in spans of a quarter of the time, five of them: those of the last four are all there.

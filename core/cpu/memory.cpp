@@ -10,10 +10,7 @@ namespace {
 
 // Passes of the voxels without hits, no more than are remembered.
 GVOM_CLONES void read_passes(const std::int32_t* lookup, std::uint16_t* passes) {
-  for (int i = 0; i < kBrickCells; ++i) {
-    const std::uint32_t free = free_passes(lookup[i]);
-    passes[i] = static_cast<std::uint16_t>(free < kMostPasses ? free : kMostPasses);
-  }
+  for (int i = 0; i < kBrickCells; ++i) passes[i] = rememberable(free_passes(lookup[i]));
 }
 
 GVOM_CLONES void add_passes(const std::uint16_t* passes, std::uint8_t second, std::uint8_t now,
@@ -27,6 +24,11 @@ GVOM_CLONES void age_no_further(std::uint8_t now, std::uint8_t most, std::size_t
     const std::uint8_t age = seconds_between(seconds[i], now);
     seconds[i] = static_cast<std::uint8_t>(now - (age < most ? age : most));
   }
+}
+
+GVOM_CLONES void lower_stack(const float* from_m, float doubt_m, float* to_m) {
+  GVOM_INDEPENDENT
+  for (int c = 0; c < kBrickColumns; ++c) to_m[c] = lower(to_m[c], from_m[c] + doubt_m);
 }
 
 GVOM_CLONES void lower_all(const float* from_m, std::size_t n, float* to_m) {
@@ -114,19 +116,17 @@ void Memory::begin_stack(std::int32_t bx, std::int32_t by, std::size_t stack, bo
       columns |= left.map->columns[brick];
       if (bz < low_) left.lower |= left.map->columns[brick];
     }
+    remember_seconds(left, columns, stack);
     const std::int32_t own_stack = grid.stack_of_brick(bx, by);
-    if (own_stack >= 0)
-      remember_columns(left, columns, left.map->lowest_ray_m + std::ptrdiff_t{own_stack} * kBrickColumns,
-                       stack);
+    if (own_stack < 0 || left.span_m == nullptr) continue;
+    const float* const rays_m = left.map->lowest_ray_m + std::ptrdiff_t{own_stack} * kBrickColumns;
+    const float doubt_m = doubt_of_rays_m(grid, bx, by);
+    lower_stack(rays_m, doubt_m, left.span_m + stack);
+    lower_stack(rays_m, doubt_m, lowest_ray_m_.data() + stack);
   }
 }
 
-void Memory::remember_columns(const Left& left, std::uint64_t columns, const float* rays_m,
-                              std::size_t stack) {
-  if (left.span_m != nullptr) {
-    lower_all(rays_m, kBrickColumns, left.span_m + stack);
-    lower_all(rays_m, kBrickColumns, lowest_ray_m_.data() + stack);
-  }
+void Memory::remember_seconds(const Left& left, std::uint64_t columns, std::size_t stack) {
   if (left.too_old) return;
   const std::uint8_t age = seconds_between(left.second, now());
   for (std::size_t c = 0; c < kBrickColumns; ++c) {

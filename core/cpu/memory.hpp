@@ -81,7 +81,7 @@ class Memory {
   void forget_old_columns();
   void forget_old_spans(std::int64_t before, std::int64_t span);
   void note_second(Brick& brick, std::uint8_t second);
-  void remember_columns(const Left& left, std::uint64_t columns, const float* rays_m, std::size_t stack);
+  void remember_seconds(const Left& left, std::uint64_t columns, std::size_t stack);
 
   std::int32_t seconds_;
   std::int64_t now_ = 0;  // the second of the newest stamp

@@ -41,13 +41,14 @@ struct MeasureColumns {
     const std::size_t begin = work.cells_of(i / 64) + static_cast<std::size_t>(i % 64 * kBrickEdge);
     const Eight<std::uint32_t> hits = read_eight(work.bricks.hits + begin);
     const Eight<std::uint32_t> passes = read_eight(work.bricks.passes + begin);
+    const unsigned of_window = ~unsigned{work.bricks.shown_in(begin)};
     unsigned observed = 0, hit = 0;
     for (int z = 0; z < kBrickEdge; ++z) {
       observed |= static_cast<unsigned>((hits.at[z] | passes.at[z]) != 0) << z;
       hit |= static_cast<unsigned>(hits.at[z] != 0) << z;
     }
-    work.observed[i] = static_cast<std::uint8_t>(observed);
-    work.hit[i] = static_cast<std::uint8_t>(hit);
+    work.observed[i] = static_cast<std::uint8_t>(observed & of_window);
+    work.hit[i] = static_cast<std::uint8_t>(hit & of_window);
   }
 };
 
@@ -97,9 +98,11 @@ struct WriteColumns {
     const Eight<std::uint32_t> passes = read_eight(work.bricks.passes + begin);
     std::uint32_t record = work.first_record_of(slot) + records_before(slot, column);
     Eight<std::int32_t> lookup;
+    const unsigned shown = work.bricks.shown_in(begin);
     for (int z = 0; z < kBrickEdge; ++z) {
-      lookup.at[z] = free_lookup(passes.at[z]);
-      if (hits.at[z] == 0) continue;
+      const bool of_window = (shown >> z & 1) == 0;
+      lookup.at[z] = free_lookup(of_window ? passes.at[z] : 0);
+      if (hits.at[z] == 0 || !of_window) continue;
       out.records[record] = {hits.at[z], passes.at[z], work.bricks.min_height_m[begin + z]};
       lookup.at[z] = static_cast<std::int32_t>(record++);
     }

@@ -1,6 +1,8 @@
 // Eight fused voxels above each other: a column within a brick, in the registers of one thread (R7, R8).
 #pragma once
 
+#include <cuda_runtime.h>
+
 #include "core/cell.hpp"
 #include "core/cuda/device_map.hpp"
 
@@ -41,6 +43,15 @@ class CellColumn {
   __device__ void read_minima(const DenseBricks& bricks, std::size_t begin) {
     if (!has_minima_) min_m_ = read_eight(bricks.min_height_m + begin);
     has_minima_ = true;
+  }
+
+  /// Takes out what is not of the window (R17), before anything is added. Bit z of `shown`: that voxel.
+  __device__ void hide(const DenseBricks& bricks, std::size_t begin, std::uint8_t shown) {
+    if (shown == 0) return;
+    read_minima(bricks, begin);
+    GVOM_UNROLL
+    for (int z = 0; z < kBrickEdge; ++z)
+      if ((shown >> z & 1) != 0) hits_.at[z] = 0, passes_.at[z] = 0, min_m_.at[z] = kNoHeight_m;
   }
 
   /// What was read and may have changed.

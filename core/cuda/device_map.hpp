@@ -40,6 +40,14 @@ struct DenseBricks {
   std::uint32_t* hits;
   std::uint32_t* passes;
   float* min_height_m;
+  /// For each column of each brick, bit z: the voxel is not of the window but shows what is remembered (R17).
+  /// Null where nothing is.
+  std::uint8_t* shown = nullptr;
+
+  /// The byte of `shown` of the column whose cells begin there.
+  [[nodiscard]] GVOM_HD std::uint8_t shown_in(std::size_t begin) const {
+    return shown == nullptr ? std::uint8_t{0} : shown[begin / kBrickEdge];
+  }
 
   /// Where the cells of a world brick begin.
   GVOM_HD std::size_t begin_of(const Int3& world_brick) const {
@@ -58,10 +66,10 @@ GVOM_HD inline Int3 world_brick(const Grid& grid, std::int32_t slot) {
 
 /// Eight values that lie side by side: what a column of a brick has. Read and written in wide accesses.
 template <class T>
-struct alignas(32) Eight {
+struct alignas(sizeof(T) < 4 ? sizeof(T) * kBrickEdge : 32) Eight {
   T at[kBrickEdge];
 };
-static_assert(sizeof(Eight<float>) == 32 && sizeof(Eight<std::int32_t>) == 32);
+static_assert(sizeof(Eight<float>) == 32 && sizeof(Eight<std::uint16_t>) == 16);
 
 template <class T>
 GVOM_HD inline Eight<T> read_eight(const T* begin) {

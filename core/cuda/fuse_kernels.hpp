@@ -3,6 +3,7 @@
 
 #include "core/cuda/atomics.hpp"
 #include "core/cuda/cell_column.hpp"
+#include "core/cuda/device_memory.hpp"
 #include "core/cuda/fuse_tick.hpp"
 
 namespace gvom::cuda {
@@ -11,6 +12,7 @@ namespace gvom::cuda {
 struct ListChangedBricks {
   const FuseTick* tick;
   std::int32_t slots;
+  DeviceMemory memory;
   std::uint32_t* listed;  ///< Slots, in no order.
   std::uint32_t* count;
 
@@ -31,12 +33,23 @@ struct ListChangedBricks {
  private:
   [[nodiscard]] __device__ bool changed(std::int32_t slot) const {
     const Int3 brick = world_brick(tick->grid, slot);
-    bool changed = tick->moved_in_z || tick->enters(brick) || tick->map(tick->added).brick_at(brick) >= 0;
+    bool changed = tick->moved_in_z || tick->enters(brick) || tick->map(tick->added).brick_at(brick) >= 0 ||
+                   memory.is_due(tick->memory, tick->grid.bricks(), brick);
     for (std::int32_t i = 0; i < tick->left_maps && !changed; ++i)
       changed = tick->left(i).brick_at(brick) >= 0;
     return changed;
   }
 };
+
+/// Where a column of a brick has its byte of FusedView's masks. Little-endian, as all machines with CUDA are.
+__device__ inline std::size_t mask_byte(const Grid& grid, const Int3& brick, std::int32_t column,
+                                        std::int32_t mask_bytes) {
+  const Int3 n = grid.bricks();
+  const std::int32_t x = wrap(brick[0], n[0]) * kBrickEdge + column / kBrickEdge;
+  const std::int32_t y = wrap(brick[1], n[1]) * kBrickEdge + column % kBrickEdge;
+  return static_cast<std::size_t>(y * grid.size[0] + x) * static_cast<std::size_t>(mask_bytes) +
+         static_cast<std::size_t>(brick[2] - grid.origin[2] / kBrickEdge);
+}
 
 /// For each half of a listed brick, a lane for each of its 32 columns: brings their voxels and their bytes of
 /// the masks up to date.
@@ -62,12 +75,15 @@ struct UpdateBricks {
     if (tick->enters(brick)) {
       sum_window(brick, first, cells);
     } else {
-      for_each_lane([&](std::int32_t lane) { cells[lane].read(bricks, cells_of(lane)); });
+      for_each_lane([&](std::int32_t lane) {
+        cells[lane].read(bricks, cells_of(lane));
+        cells[lane].hide(bricks, cells_of(lane), bricks.shown_in(cells_of(lane)));
+      });
       change(brick, first, begin, cells);
     }
     for_each_lane([&](std::int32_t lane) {
       cells[lane].write(bricks, cells_of(lane));
-      const std::size_t byte = mask_byte(brick, first + lane);
+      const std::size_t byte = mask_byte(tick->grid, brick, first + lane, mask_bytes);
       occupied[byte] = cells[lane].occupied(min_hits);
       free[byte] = cells[lane].free(min_hits);
     });
@@ -127,15 +143,6 @@ struct UpdateBricks {
         in_lane(lane, [&] { cells[lane].lower_minima(min_m); });
       }
     });
-  }
-
-  // Little-endian, as all machines with CUDA are.
-  __device__ std::size_t mask_byte(const Int3& brick, std::int32_t column) const {
-    const std::int32_t n_xy = bricks.bricks[0] * kBrickEdge;
-    const std::int32_t x = wrap(brick[0], bricks.bricks[0]) * kBrickEdge + column / kBrickEdge;
-    const std::int32_t y = wrap(brick[1], bricks.bricks[1]) * kBrickEdge + column % kBrickEdge;
-    return static_cast<std::size_t>(y * n_xy + x) * static_cast<std::size_t>(mask_bytes) +
-           static_cast<std::size_t>(brick[2] - tick->grid.origin[2] / kBrickEdge);
   }
 };
 

@@ -4,12 +4,28 @@
 // wait for the memory.
 #pragma once
 
+#include <cuda_runtime.h>
+
 #include "core/cell.hpp"
 #include "core/cuda/cell_column.hpp"
 #include "core/cuda/device_map.hpp"
 #include "core/cuda/lanes.hpp"
+#include "core/memory.hpp"
 
 namespace gvom::cuda {
+
+/// What the memory must know of a tick (R17).
+struct MemoryTick {
+  std::int64_t now;           ///< The second of the newest stamp.
+  std::int32_t seconds;       ///< How long something is remembered; 0: nothing is.
+  std::int32_t spans_passed;  ///< Of rays: so many begin with this tick.
+  bool all_too_old;           ///< What was remembered before it.
+
+  /// Of a second that is not newer than `now`, from a tick before.
+  [[nodiscard]] __device__ bool is_too_old(std::uint8_t second) const {
+    return all_too_old || seconds_between(second, static_cast<std::uint8_t>(now)) > seconds;
+  }
+};
 
 /// What changes when a map comes. Behind it in memory lie the maps of the window, newest first, then those
 /// that left.
@@ -20,6 +36,7 @@ struct FuseTick {
   std::int32_t window_maps;
   std::int32_t left_maps;
   bool moved_in_z;
+  MemoryTick memory;
 
   [[nodiscard]] __device__ const DeviceMap& map(std::int32_t i) const {
     return reinterpret_cast<const DeviceMap*>(this + 1)[i];

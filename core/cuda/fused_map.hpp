@@ -5,7 +5,8 @@
 #include <cstdint>
 
 #include "core/cuda/device.hpp"
-#include "core/cuda/fuse_kernels.hpp"
+#include "core/cuda/device_memory.hpp"
+#include "core/cuda/fuse_tick.hpp"
 #include "core/cuda/map_ring.hpp"
 #include "core/window.hpp"
 
@@ -14,7 +15,7 @@ namespace gvom::cuda {
 class FusedMap {
  public:
   /// @param most_maps that a tick can name: those of the window and those that leave it
-  FusedMap(Device& device, const MapConfig& map, int min_hits, std::size_t most_maps);
+  FusedMap(Device& device, const MapperConfig& config, std::size_t most_maps);
 
   /// Fuses the map that the window took last. All of the window's maps, and those that left it, are in
   /// `ring`.
@@ -33,6 +34,9 @@ class FusedMap {
   std::size_t write_tick(const Window& window, std::uint32_t added_place, const MapRing& ring,
                          std::byte* to) const;
   std::byte* next_staged();
+  void take_memory();
+  void record(std::uint32_t min_hits);
+  [[nodiscard]] MemoryTick memory_tick(std::int64_t newest_ns) const;
   [[nodiscard]] std::size_t columns() const;
   [[nodiscard]] std::size_t mask_bytes() const { return columns() * static_cast<std::size_t>(words_) * 8; }
 
@@ -48,9 +52,12 @@ class FusedMap {
   std::uint64_t* free_;
   std::int64_t* last_seen_ns_;
   float* lowest_ray_m_;
-  std::byte* tick_;         // a FuseTick and its maps
-  std::size_t tick_bytes_;  // room for it
-  std::byte* staged_;       // pinned, kStaged times
+  std::int32_t seconds_remembered_;  // 0: nothing is
+  DeviceMemory memory_{};
+  std::int64_t newest_second_ = 0;  // of the memory
+  std::byte* tick_;                 // a FuseTick and its maps
+  std::size_t tick_bytes_;          // room for it
+  std::byte* staged_;               // pinned, kStaged times
   std::size_t staged_ticks_ = 0;
   std::uint32_t* listed_;
   std::uint32_t* listed_count_;

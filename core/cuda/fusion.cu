@@ -28,7 +28,7 @@ Fusion::Fusion(std::unique_ptr<Device> device, const FusionSetup& setup, bool in
       window_(setup.config.window, grid_around(setup.config.map, Eigen::Vector3d::Zero())),
       // A full window, the map that comes, and one that is refused.
       ring_(*device_, setup.config.map, most_in_window(setup) + 2, setup.max_returns, in_place),
-      map_(*device_, setup.config.map, setup.config.layers.min_hits, 2 * most_in_window(setup) + 2),
+      map_(*device_, setup.config, 2 * most_in_window(setup) + 2),
       layer_maker_(*device_, setup.config),
       voxel_writer_(*device_, setup.config.map, most_voxel_records(setup)) {
   unsettled_.reserve(most_in_window(setup) + 2);

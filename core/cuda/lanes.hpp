@@ -86,6 +86,26 @@ __device__ float lowest_of_lanes(Value&& value) {
   return lowest;
 }
 
+/// The highest of what `value(lane)` says.
+template <class Value>
+__device__ std::int32_t highest_of_lanes(Value&& value) {
+  std::int32_t highest = value(static_cast<std::int32_t>(threadIdx.x) % kLanes);
+  for (std::int32_t apart = kLanes / 2; apart > 0; apart /= 2) {
+    const std::int32_t other = __shfl_xor_sync(~0U, highest, apart);
+    highest = other > highest ? other : highest;
+  }
+  return highest;
+}
+
+/// All bits that are set in what any `value(lane)` says.
+template <class Value>
+__device__ std::uint64_t bits_of_lanes(Value&& value) {
+  std::uint64_t bits = value(static_cast<std::int32_t>(threadIdx.x) % kLanes);
+  for (std::int32_t apart = kLanes / 2; apart > 0; apart /= 2)
+    bits |= __shfl_xor_sync(~0U, static_cast<unsigned long long>(bits), apart);
+  return bits;
+}
+
 #else
 
 template <class T>
@@ -150,6 +170,23 @@ float lowest_of_lanes(Value&& value) {
     lowest = other < lowest ? other : lowest;
   });
   return lowest;
+}
+
+template <class Value>
+std::int32_t highest_of_lanes(Value&& value) {
+  std::int32_t highest = value(0);
+  for_each_lane([&](std::int32_t lane) {
+    const std::int32_t other = value(lane);
+    highest = other > highest ? other : highest;
+  });
+  return highest;
+}
+
+template <class Value>
+std::uint64_t bits_of_lanes(Value&& value) {
+  std::uint64_t bits = 0;
+  for_each_lane([&](std::int32_t lane) { bits |= value(lane); });
+  return bits;
 }
 
 #endif

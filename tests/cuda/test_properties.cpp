@@ -29,5 +29,15 @@ TEST_CASE("CUDA: random drives through towers and odd grids give the oracle's bi
   race(Backend::cuda, {24, 72, 30, 150, true}, 1200, seed_count(6));
 }
 
+TEST_CASE("CUDA: random drives with a memory give the oracle's bits") {
+  if (!has_gpu()) return;
+  race(Backend::cuda, {8, 8, 60, 60, false, 3}, 3000, seed_count(10));
+  race(Backend::cuda, {24, 72, 60, 150, false, 4}, 3100, seed_count(3));
+  race(Backend::cuda, {64, 64, 40, 250, false, 3}, 3200, 2);
+  race(Backend::cuda, {8, 8, 60, 60, true, 20, 700'000'000}, 3400, seed_count(10));
+  race(Backend::cuda, {64, 8, 60, 150, false, 30, 700'000'000}, 3500, seed_count(3));
+  race(Backend::cuda, {64, 64, 40, 250, false, 120, 5'000'000'000}, 3600, 2);
+}
+
 }  // namespace
 }  // namespace gvom::test

@@ -96,13 +96,18 @@ ColumnHeights Memory::lowest_ray() const {
   const std::int64_t span = (seconds_ + 3) / 4;
   for (const Gone& gone : gone_) {
     if (floor_of_quotient(now_, span) - floor_of_quotient(gone.second, span) > 4) continue;
+    const Grid& grid = gone.map.grid;
     ColumnHeights rays = gone.map.lowest_ray;
     for (int y = 0; y < grid_.size[1]; ++y)
       for (int x = 0; x < grid_.size[0]; ++x) {
         if (gone.step < stacks_.at({brick_of(grid_.origin[0] + x), brick_of(grid_.origin[1] + y)})) continue;
         const float* const ray_m = rays.at(std::int64_t{x} + grid_.origin[0] - gone.map.grid.origin[0],
                                            std::int64_t{y} + grid_.origin[1] - gone.map.grid.origin[1]);
-        if (ray_m != nullptr) *lowest.at(x, y) = std::min(*lowest.at(x, y), *ray_m);
+        if (ray_m == nullptr) continue;
+        const double east = brick_of(grid_.origin[0] + x) - grid.origin[0] / 8 + 0.5 - grid.size[0] / 16.0;
+        const double north = brick_of(grid_.origin[1] + y) - grid.origin[1] / 8 + 0.5 - grid.size[1] / 16.0;
+        const double range_m = 8 * grid.resolution_m[0] * std::sqrt(east * east + north * north);
+        *lowest.at(x, y) = std::min(*lowest.at(x, y), *ray_m + static_cast<float>(0.004 * range_m));
       }
   }
   return lowest;

@@ -35,9 +35,11 @@ struct Frame {
   }
 };
 
-/// Ground that a ray has hit: the only ground whose height is judged, and that counts as covered.
-inline bool ground_is_seen(std::uint8_t visibility) {
-  return visibility == static_cast<std::uint8_t>(Visibility::ground_seen);
+/// Ground that a ray has hit, now or as it is remembered: the only ground whose height is judged, and that
+/// counts as covered.
+inline bool ground_is_known(std::uint8_t visibility, float height) {
+  return visibility == static_cast<std::uint8_t>(Visibility::ground_seen) ||
+         (is_remembered(visibility) && std::isfinite(height));
 }
 inline bool is_observed(std::uint8_t visibility) {
   return visibility != static_cast<std::uint8_t>(Visibility::unobserved);

@@ -31,7 +31,7 @@ void GroundJudge::add(const Frame& frame, const Sight& sight) {
     if (holds_walker(facts_, frame, middle_m)) return;
     if (truth.drivable[at]) judge_drivable(frame, sight, column);
     if (truth.drivable[at] && asks_sight) judge_coverage_in_sight(frame, sight, column);
-    if (ground_is_seen(column.visibility)) judge_height(column);
+    if (ground_is_known(column.visibility, column.height)) judge_height(column);
     if (!is_observed(column.visibility) || column.ahead_m > kNear_m) return;
     if (truth.lethal[at]) lethal_found_.count(column.flags & kLethalFlags);
     if (!is_class(truth, at, ObjectClass::grass)) return;
@@ -41,9 +41,9 @@ void GroundJudge::add(const Frame& frame, const Sight& sight) {
 }
 
 void GroundJudge::judge_drivable(const Frame& frame, const Sight& sight, const Column& column) {
-  const bool seen = ground_is_seen(column.visibility);
-  if (column.ahead_m <= kNear_m) coverage_near_.count(seen);
-  if (column.ahead_m <= kFar_m) coverage_far_.count(seen);
+  const bool known = ground_is_known(column.visibility, column.height);
+  if (column.ahead_m <= kNear_m) coverage_near_.count(known);
+  if (column.ahead_m <= kFar_m) coverage_far_.count(known);
   if (!is_observed(column.visibility)) return;
   if (column.flags & kNegative && is_behind_edge(facts_, frame, sight, column.truth)) return;
   negative_.count(column.ahead_m, column.flags & kNegative);
@@ -54,9 +54,9 @@ void GroundJudge::judge_drivable(const Frame& frame, const Sight& sight, const C
 
 void GroundJudge::judge_coverage_in_sight(const Frame& frame, const Sight& sight, const Column& column) {
   if (column.ahead_m > kFar_m || !ground_in_sight(facts_, frame, sight, column.truth)) return;
-  const bool seen = ground_is_seen(column.visibility);
-  sight_far_.count(seen);
-  if (column.ahead_m <= kNear_m) sight_near_.count(seen);
+  const bool known = ground_is_known(column.visibility, column.height);
+  sight_far_.count(known);
+  if (column.ahead_m <= kNear_m) sight_near_.count(known);
 }
 
 void GroundJudge::judge_height(const Column& column) {

@@ -63,6 +63,7 @@ Panel obstacles(const LayersPicture& picture) {
 
 Panel negative_obstacles(const LayersPicture& picture) {
   const float* delta = picture.floats(LayerId::negative_delta);
+  const float* height = picture.floats(LayerId::height);
   const std::uint8_t* flags = picture.bytes(LayerId::flags);
   const Scale scale{0, std::min(10.0, largest_finite(delta, picture.columns(), 2.0))};
   Panel panel;
@@ -70,7 +71,9 @@ Panel negative_obstacles(const LayersPicture& picture) {
     if (flags[i] & kNegative) return kViolets.at(scale.fraction(delta[i]));
     const Visibility seen = visibility_of(picture, i);
     if (seen == Visibility::unobserved) return kUnknown;
-    if (seen != Visibility::free_only) return kPlainGround;
+    const bool has_ground =
+        seen == Visibility::remembered ? !std::isnan(height[i]) : seen != Visibility::free_only;
+    if (has_ground) return kPlainGround;
     return delta[i] > 0.0F ? kAssumedColour : kSeenThrough;
   });
   panel.bars = {{"drop", &kViolets, scale}};
@@ -181,7 +184,8 @@ Panel coloured(LayerId layer, const LayersPicture& picture) {
                       {{kUnknown, "unobserved"},
                        {kSeenThrough, "free only"},
                        {kAssumedColour, "assumed"},
-                       {{96, 158, 92}, "ground"}});
+                       {{96, 158, 92}, "ground"},
+                       {{150, 178, 120}, "remembered"}});
     case LayerId::cost:
       break;
   }

@@ -1,0 +1,191 @@
+// What is remembered beyond the window (R17).
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "tests/core/rig.hpp"
+
+namespace gvom::test {
+namespace {
+
+constexpr std::int64_t kSecond_ns = std::int64_t{1} << 30;  // of the memory
+const Points kElsewhere{{0.25, 5.25, 1.25}};
+const Points kFloor = floor_points(-10, 10, -3, 3);
+
+MapperConfig remembering(double max_age_s) {
+  MapperConfig config = half_metre_map();
+  config.window = {2, 1000};
+  config.memory.max_age_s = max_age_s;
+  config.vehicle.radius_m = 0;
+  return config;
+}
+
+// Two sweeps that see nothing of the floor: the window knows no more.
+void look_elsewhere(Rig& rig, std::int64_t stamp_ns) {
+  rig.see(kElsewhere, stamp_ns - 1);
+  rig.see(kElsewhere, stamp_ns);
+}
+
+TEST_CASE("Ground that no lidar sees any more is as it was, and says how old it is") {
+  Rig rig(remembering(20)), forgetful(remembering(0));
+  for (Rig* one : {&rig, &forgetful}) {
+    one->see(kFloor, kSecond_ns + 5);
+    look_elsewhere(*one, 4 * kSecond_ns + kSecond_ns / 4);
+  }
+  const ColumnValues column = rig.column(3.25, 2.25);
+  CHECK(column.height == 0.05f);
+  CHECK(column.slope == 0);
+  CHECK(column.flags == 0);
+  CHECK(column.cost == 0);
+  CHECK(column.visibility == 4);
+  CHECK(column.last_seen == static_cast<float>(3.25 * static_cast<double>(kSecond_ns) * 1e-9));
+  CHECK(forgetful.column(3.25, 2.25).visibility == 0);
+  CHECK(rig.column(0.25, 4.25).visibility == 1);  // what the window has passed is the window's
+  CHECK(rig.column(0.25, 4.25).last_seen == 0);
+}
+
+TEST_CASE("A column through which rays only passed is remembered as that") {
+  Rig rig(remembering(20));
+  rig.see({{8.25, 0.25, 1.25}, {8.25, 0.25, 0.75}}, kSecond_ns);
+  look_elsewhere(rig, 2 * kSecond_ns);
+  CHECK(rig.column(5.25, 0.25).visibility == 4);
+  CHECK(std::isnan(rig.column(5.25, 0.25).height));
+  CHECK(rig.column(5.25, 0.25).last_seen == static_cast<float>(static_cast<double>(kSecond_ns) * 1e-9));
+}
+
+TEST_CASE("What a map observes again is what the window says, alone") {
+  Rig rig(remembering(20));
+  rig.see({{5.25, 0.25, 0.05}, {5.25, 0.25, 0.15}}, kSecond_ns);
+  look_elsewhere(rig, 2 * kSecond_ns);
+  CHECK(rig.voxel(5.25, 0.25, 0.25).hits == 2);
+  rig.see({{5.25, 0.25, 0.35}}, 3 * kSecond_ns);
+  CHECK(rig.voxel(5.25, 0.25, 0.25).hits == 1);
+  CHECK(rig.column(5.25, 0.25).height == 0.35f);
+  CHECK(rig.column(5.25, 0.25).visibility == 3);
+}
+
+TEST_CASE("Within a second of the memory hits and passes add up, the newest second counts") {
+  Rig rig(remembering(20));
+  rig.see({{5.25, 0.25, 0.35}}, kSecond_ns);
+  rig.see({{5.25, 0.25, 0.05}}, 2 * kSecond_ns);
+  rig.see({{5.25, 0.25, 0.15}}, 2 * kSecond_ns + 1);
+  look_elsewhere(rig, 2 * kSecond_ns + 3);
+  CHECK(rig.voxel(5.25, 0.25, 0.25).hits == 2);
+  CHECK(rig.voxel(5.25, 0.25, 0.25).min_height_m == 0.05f);
+  CHECK(rig.voxel(2.75, 0.25, 0.75).passes == 2);
+}
+
+TEST_CASE("A walker does not come back where rays have passed since") {
+  const Points walker{{5.25, 0.25, 0.75}, {5.25, 0.25, 1.25}};
+  Points beyond;
+  for (double z = 0.3; z < 1.4; z += 0.1) beyond.emplace_back(8.25, 0.25, z);
+  Rig rig(remembering(20));
+  rig.see(kFloor + walker, kSecond_ns);
+  look_elsewhere(rig, 2 * kSecond_ns);
+  REQUIRE(rig.voxel(5.25, 0.25, 0.75).hits == 1);  // while nothing was seen there
+  REQUIRE(rig.voxel(5.25, 0.25, 1.25).hits == 1);
+  rig.see(kFloor + beyond, 3 * kSecond_ns);
+  look_elsewhere(rig, 4 * kSecond_ns);
+  CHECK(rig.voxel(5.25, 0.25, 0.75).hits == 0);
+  CHECK(rig.voxel(5.25, 0.25, 1.25).hits == 0);
+  CHECK(rig.column(5.25, 0.25).height == 0.05f);
+  CHECK(rig.column(5.25, 0.25).flags == 0);
+}
+
+TEST_CASE("A ray that was somewhere in the lowest voxel seen takes no ground away") {
+  Rig rig(remembering(20));
+  rig.see({{5.25, 0.25, 0.05}}, kSecond_ns);
+  rig.see({{5.75, 0.25, 0.05}}, 2 * kSecond_ns);  // 5 to 16 cm above that ground
+  rig.see({{5.75, 0.25, 0.05}}, 3 * kSecond_ns);
+  CHECK(rig.voxel(5.25, 0.25, 0.25).passes == 2);
+  look_elsewhere(rig, 4 * kSecond_ns);
+  CHECK(rig.voxel(5.25, 0.25, 0.25).hits == 1);
+  CHECK(rig.column(5.25, 0.25).height == 0.05f);
+}
+
+TEST_CASE("After its time it is forgotten") {
+  Rig rig(remembering(5));  // 4.66, so 5 of its seconds
+  rig.see(kFloor, 3 * kSecond_ns);
+  look_elsewhere(rig, 9 * kSecond_ns - 1);
+  CHECK(rig.column(3.25, 2.25).visibility == 4);
+  rig.see(kElsewhere, 9 * kSecond_ns);
+  CHECK(rig.column(3.25, 2.25).visibility == 0);
+  CHECK(std::isnan(rig.column(3.25, 2.25).last_seen));
+  CHECK(std::isnan(rig.column(3.25, 2.25).height));
+}
+
+TEST_CASE("A pause of minutes forgets everything") {
+  Rig rig(remembering(5));
+  rig.see(kFloor, 3 * kSecond_ns);
+  look_elsewhere(rig, 4 * kSecond_ns);
+  look_elsewhere(rig, (3 + 256) * kSecond_ns);
+  CHECK(rig.column(3.25, 2.25).visibility == 0);
+}
+
+TEST_CASE("What has left the grid is forgotten") {
+  Rig rig(remembering(20));
+  rig.see(kFloor, kSecond_ns);
+  look_elsewhere(rig, 2 * kSecond_ns);
+  rig.see({{100.25, 5.25, 1.25}}, 3 * kSecond_ns, {100, 0, 0});
+  look_elsewhere(rig, 4 * kSecond_ns);
+  CHECK(rig.column(3.25, 2.25).visibility == 0);
+}
+
+TEST_CASE("A reset empties the memory") {
+  Rig rig(remembering(20));
+  rig.see(kFloor, kSecond_ns);
+  look_elsewhere(rig, 2 * kSecond_ns);
+  rig.reset();
+  look_elsewhere(rig, 3 * kSecond_ns);
+  CHECK(rig.column(3.25, 2.25).visibility == 0);
+}
+
+TEST_CASE("Ground that is seen again a voxel higher, after a drift, is not there twice") {
+  Rig rig(remembering(20));
+  rig.see({{5.25, 0.25, 0.45}}, kSecond_ns);
+  look_elsewhere(rig, 2 * kSecond_ns);
+  rig.see({{5.25, 0.25, 0.55}}, 3 * kSecond_ns);
+  CHECK(rig.column(5.25, 0.25).height == 0.55f);
+  CHECK(rig.column(5.25, 0.25).visibility == 3);
+}
+
+TEST_CASE("The ditch before the vehicle stays while rays go over it only") {
+  Points far_wall, over;
+  for (double y = -2.75; y < 3; y += 0.5) {
+    for (const double z : {-0.3, -0.6, -0.9}) far_wall.emplace_back(8.1, y, z);
+    over.emplace_back(11.25, y, 0.35);
+  }
+  const Points near_side = floor_points(-2, 6, -3, 3), far_side = floor_points(8, 14, -3, 3);
+  Rig rig(remembering(20)), forgetful(remembering(0));
+  for (Rig* one : {&rig, &forgetful}) {
+    one->see(near_side + far_side + far_wall, kSecond_ns);
+    REQUIRE((one->column(7.75, 0.25).flags & kNegative) != 0);
+    for (int i = 2; i < 6; ++i) one->see(near_side + over, i * kSecond_ns);
+  }
+  CHECK((rig.column(7.75, 0.25).flags & kNegative) != 0);
+  CHECK((forgetful.column(7.75, 0.25).flags & kNegative) == 0);
+}
+
+TEST_CASE("The order of maps changes nothing of what is remembered") {
+  MapperConfig config = remembering(20);
+  config.window.buffer_size = 3;
+  Rig in_order(config), late(config);
+  const Points post{{5.25, 0.25, 1.05}, {5.25, 0.25, 0.75}};
+  const std::vector<Points> seen{kFloor, post, kFloor + post, kElsewhere, kElsewhere, kElsewhere};
+  const auto see = [&](Rig& rig, int i) {
+    REQUIRE(rig.see(seen[std::size_t(i)], (i + 10) * kSecond_ns / 4) == AddResult::added);
+  };
+  for (const int i : {0, 1, 2, 3, 4, 5}) see(in_order, i);
+  for (const int i : {0, 2, 1, 3, 5, 4}) see(late, i);
+  for (double x = -9.75; x < 12; x += 0.5)
+    for (double y = -4.75; y < 5; y += 0.5) {
+      const ColumnValues one = in_order.column(x, y), other = late.column(x, y);
+      REQUIRE((one.height == other.height || (std::isnan(one.height) && std::isnan(other.height))));
+      REQUIRE(one.cost == other.cost);
+      REQUIRE(one.visibility == other.visibility);
+    }
+  CHECK(in_order.total().hits == late.total().hits);
+  CHECK(in_order.total().passes == late.total().passes);
+}
+
+}  // namespace
+}  // namespace gvom::test
