@@ -81,23 +81,31 @@ GVOM_HD inline std::int32_t lowest_solid(const FusedView& map, std::int32_t x, s
   return z;
 }
 
+/// The next solid voxel of a column above `z` that the window has itself (R17), or -1.
+GVOM_HD inline std::int32_t next_solid_of_window(const FusedView& map, std::int32_t x, std::int32_t y,
+                                                 std::int32_t z) {
+  const std::size_t mask = map.column(x, y) * static_cast<std::size_t>(map.words);
+  do z = next_bit(map.occupied + mask, map.words, z);
+  while (z >= 0 && (has_bit(map.memory.remembered + mask, z) || is_worn(map, map.cell(x, y, z))));
+  return z;
+}
+
 /// The voxel whose lowest return is a column's own (R9), or -1. It is remembered or not (R17).
 struct LowestVoxel {
   std::int32_t z;
   bool remembered;
 };
 
-/// A remembered one right below one that the window has is the same ground as it was, before the odometry
-/// drifted.
+/// What the window has counts before what is remembered below it, but for what hangs by its own rays (R17).
 GVOM_HD inline LowestVoxel lowest_voxel(const FusedView& map, std::int32_t x, std::int32_t y) {
   const std::int32_t z = lowest_solid(map, x, y);
   if (z < 0 || map.memory.remembered == nullptr) return {z, false};
-  const std::size_t mask = map.column(x, y) * static_cast<std::size_t>(map.words);
-  const std::uint64_t* remembered = map.memory.remembered + mask;
-  if (!has_bit(remembered, z)) return {z, false};
-  const bool seen_above = z + 1 < map.n_z && has_bit(map.occupied + mask, z + 1) &&
-                          !has_bit(remembered, z + 1) && !is_worn(map, map.cell(x, y, z + 1));
-  return {seen_above ? z + 1 : z, !seen_above};
+  if (!has_bit(map.memory.remembered + map.column(x, y) * static_cast<std::size_t>(map.words), z))
+    return {z, false};
+  const std::int32_t seen = next_solid_of_window(map, x, y, z);
+  if (seen < 0) return {z, true};
+  const float below_m = map.min_height_m[map.cell(x, y, seen)] - map.lowest_ray_m[map.stacked_column(x, y)];
+  return seen != z + 1 && below_m > kHangs_m ? LowestVoxel{z, true} : LowestVoxel{seen, false};
 }
 
 /// Whether rays went below voxel `z` of a column (R9): one left the column lower, and a voxel further down
@@ -134,21 +142,26 @@ GVOM_HD inline float age_s(std::int64_t age_ns) {
 GVOM_HD inline float last_seen_s(const FusedView& map, const ColumnParameters& p, std::int32_t x,
                                  std::int32_t y, const LowestVoxel& lowest, bool observed) {
   if (lowest.remembered)
-    return age_s(time_since(map.memory.hits[map.cell(x, y, lowest.z)].second(), p.stamp_ns));
+    return age_s(time_since(map.memory.hits[map.cell(x, y, lowest.z)].beat(), p.stamp_ns));
   const std::int64_t seen_ns = map.last_seen_ns[map.column(x, y)];
   if (seen_ns != kNeverSeen) return age_s(p.stamp_ns - seen_ns);
   if (!observed) return kUnknown;
-  return age_s(time_since(map.memory.column_seconds[map.stacked_column(x, y)], p.stamp_ns));
+  return age_s(time_since(map.memory.column_beats[map.stacked_column(x, y)], p.stamp_ns));
 }
 
-/// The lowest point of a ray by which a column is judged (R5a, R17): the window's where the window has its
-/// ground.
-GVOM_HD inline float lowest_ray_m(const FusedView& map, std::int32_t x, std::int32_t y,
-                                  const LowestVoxel& lowest) {
+/// Rays over what is nearer look down on it no more, so it is judged by remembered ones too, metres.
+inline constexpr double kLooksOver_m = 8;
+
+/// The lowest point of a ray by which a column is judged (R5a, R17).
+GVOM_HD inline float lowest_ray_m(const FusedView& map, const ColumnParameters& p, std::int32_t x,
+                                  std::int32_t y, const LowestVoxel& lowest) {
   const std::size_t column = map.stacked_column(x, y);
-  const bool alone = map.memory.lowest_ray_m == nullptr || (lowest.z >= 0 && !lowest.remembered);
-  if (alone) return map.lowest_ray_m[column];
-  return lower(map.lowest_ray_m[column], map.memory.lowest_ray_m[column]);
+  const float seen_m = map.lowest_ray_m[column];
+  if (map.memory.lowest_ray_m == nullptr || (lowest.z >= 0 && !lowest.remembered)) return seen_m;
+  const std::int32_t dx = x - p.vehicle_column_x, dy = y - p.vehicle_column_y;
+  const double range_m = p.resolution_xy_m * std::sqrt(static_cast<double>(dx * dx + dy * dy));
+  if (lowest.z < 0 && seen_m != kNone_m && range_m > kLooksOver_m) return seen_m;
+  return lower(seen_m, map.memory.lowest_ray_m[column]);
 }
 
 GVOM_HD inline ColumnGround read_ground(const FusedView& map, const ColumnParameters& p, std::int32_t x,
@@ -160,7 +173,7 @@ GVOM_HD inline ColumnGround read_ground(const FusedView& map, const ColumnParame
   ColumnGround out{kUnknown, kUnknown, kNone_m, kNone_m, kNone_m, false, false, false};
   out.observed = lowest_free >= 0 || lowest.z >= 0;
   out.remembered = lowest.z >= 0 ? lowest.remembered : map.last_seen_ns[column] == kNeverSeen;
-  out.lowest_ray_m = lowest_ray_m(map, x, y, lowest);
+  out.lowest_ray_m = lowest_ray_m(map, p, x, y, lowest);
   out.last_seen = last_seen_s(map, p, x, y, lowest, out.observed);
   if (lowest_free >= 0)
     out.inferred_height = static_cast<float>((p.origin[2] + lowest_free) * p.resolution_z_m);

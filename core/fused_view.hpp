@@ -26,10 +26,10 @@ inline constexpr std::int64_t kNeverSeen = INT64_MIN;
 
 /// What the fused map remembers beyond its window (R17). Null pointers where it does not.
 struct MemoryView {
-  const std::uint64_t* remembered;     ///< [column][word]: the voxel shows what is remembered.
-  const RememberedHits* hits;          ///< [cell]
-  const std::uint8_t* column_seconds;  ///< [column_in_stacks]: of the newest map that left.
-  const float* lowest_ray_m;           ///< [column_in_stacks]: of maps that left, or +infinity.
+  const std::uint64_t* remembered;   ///< [column][word]: the voxel shows what is remembered.
+  const RememberedHits* hits;        ///< [cell]
+  const std::uint8_t* column_beats;  ///< [column_in_stacks]: of the newest map that left.
+  const float* lowest_ray_m;         ///< [column_in_stacks]: of maps that left, or +infinity.
 };
 
 /// Pointers into the fused map. x, y, z are relative to the origin.

@@ -146,9 +146,7 @@ class Shadow {
  public:
   GVOM_HD Shadow(const ShadowRays& rays, const ColumnParameters& p, std::int32_t x, std::int32_t y,
                  float ground_m)
-      : rays_(rays),
-        ground_m_(static_cast<double>(ground_m)),
-        obstacle_m_(p.layers.min_obstacle_height_m) {
+      : rays_(rays), ground_m_(static_cast<double>(ground_m)), obstacle_m_(p.layers.min_obstacle_height_m) {
     const SightLine line(x, y, p.vehicle_column_x, p.vehicle_column_y);
     beside_ = line.beside(rays.grid);
     in_grid_ = line.columns() > 0;

@@ -13,16 +13,42 @@ GVOM_CLONES void read_passes(const std::int32_t* lookup, std::uint16_t* passes) 
   for (int i = 0; i < kBrickCells; ++i) passes[i] = rememberable(free_passes(lookup[i]));
 }
 
-GVOM_CLONES void add_passes(const std::uint16_t* passes, std::uint8_t second, std::uint8_t now,
+GVOM_CLONES void add_passes(const std::uint16_t* passes, std::uint8_t beat, std::uint8_t now,
                             RememberedPasses* cells) {
   GVOM_INDEPENDENT
-  for (int i = 0; i < kBrickCells; ++i) cells[i] = with_passes(cells[i], passes[i], second, now);
+  for (int i = 0; i < kBrickCells; ++i) cells[i] = with_passes(cells[i], passes[i], beat, now);
 }
 
-GVOM_CLONES void age_no_further(std::uint8_t now, std::uint8_t most, std::size_t n, std::uint8_t* seconds) {
+// Forgets what is older than `most` beats; the oldest age of the rest, or -1.
+GVOM_CLONES std::int32_t forget_hits(std::uint8_t now, std::int32_t most, RememberedHits* cells) {
+  std::int32_t oldest = -1;
+  for (int i = 0; i < kBrickCells; ++i) {
+    const std::int32_t age = beats_between(cells[i].beat(), now);
+    const bool keeps = (static_cast<int>(cells[i].bits != 0) & static_cast<int>(age <= most)) != 0;
+    cells[i].bits = keeps ? cells[i].bits : 0;
+    cells[i].min_height_m = keeps ? cells[i].min_height_m : kNoHeight_m;
+    const std::int32_t kept_age = keeps ? age : -1;
+    oldest = kept_age > oldest ? kept_age : oldest;
+  }
+  return oldest;
+}
+
+GVOM_CLONES std::int32_t forget_passes(std::uint8_t now, std::int32_t most, RememberedPasses* cells) {
+  std::int32_t oldest = -1;
+  for (int i = 0; i < kBrickCells; ++i) {
+    const std::int32_t age = beats_between(beat_in(cells[i]), now);
+    const bool keeps = (static_cast<int>(cells[i] != 0) & static_cast<int>(age <= most)) != 0;
+    cells[i] = keeps ? cells[i] : RememberedPasses{0};
+    const std::int32_t kept_age = keeps ? age : -1;
+    oldest = kept_age > oldest ? kept_age : oldest;
+  }
+  return oldest;
+}
+
+GVOM_CLONES void age_no_further(std::uint8_t now, std::uint8_t most, std::size_t n, std::uint8_t* beats) {
   for (std::size_t i = 0; i < n; ++i) {
-    const std::uint8_t age = seconds_between(seconds[i], now);
-    seconds[i] = static_cast<std::uint8_t>(now - (age < most ? age : most));
+    const std::uint8_t age = beats_between(beats[i], now);
+    beats[i] = static_cast<std::uint8_t>(now - (age < most ? age : most));
   }
 }
 
@@ -45,14 +71,14 @@ void clear_cell(std::size_t cell, const BrickCells& cells) {
 }  // namespace
 
 Memory::Memory(const Grid& grid, const MemoryConfig& config, std::size_t most_maps)
-    : seconds_(seconds_remembered(config.max_age_s)) {
+    : beats_(beats_remembered(config.max_age_s)) {
   if (!on()) return;
   left_.reserve(most_maps);
   const std::size_t bricks = grid.brick_slots();
   bricks_.resize(bricks);
   hits_.resize(bricks * kBrickCells, kNoHits);
   passes_.resize(bricks * kBrickCells);
-  column_seconds_.resize(grid.columns());
+  column_beats_.resize(grid.columns());
   spans_m_.resize(kSpans * std::size_t{grid.columns()}, kNoRay_m);
   lowest_ray_m_.resize(grid.columns(), kNoRay_m);
 }
@@ -64,29 +90,28 @@ float* Memory::span_of_rays(std::int64_t number) {
 
 void Memory::begin(const Window& window) {
   const BrickMapView& newest = window.maps().front().view;
-  const std::int64_t before = empty_ ? second_of(newest.stamp_ns) : now_;
-  now_ = second_of(newest.stamp_ns);
+  const std::int64_t before = empty_ ? beat_of(newest.stamp_ns) : now_;
+  now_ = beat_of(newest.stamp_ns);
   low_ = newest.grid.origin[2] / kBrickEdge;
-  all_too_old_ = now_ - before > seconds_;
+  all_too_old_ = now_ - before > beats_;
   if (empty_ || now_ != before) forget_old_columns();
-  const std::int64_t span = span_of(now_, seconds_);
-  forget_old_spans(span_of(before, seconds_), span);
+  const std::int64_t span = span_of(now_, beats_);
+  forget_old_spans(span_of(before, beats_), span);
   empty_ = false;
   left_.clear();
   for (const WindowMap& left : window.left()) {
-    const std::int64_t second = second_of(left.view.stamp_ns);
-    const std::int64_t own_span = span_of(second, seconds_);
+    const std::int64_t beat = beat_of(left.view.stamp_ns);
+    const std::int64_t own_span = span_of(beat, beats_);
     float* const span_m = span - own_span < kSpans ? span_of_rays(own_span) : nullptr;
-    left_.push_back({&left.view, static_cast<std::uint8_t>(second), now_ - second > seconds_, span_m, 0});
+    left_.push_back({&left.view, static_cast<std::uint8_t>(beat), now_ - beat > beats_, span_m, 0});
   }
 }
 
 void Memory::forget_old_columns() {
   if (empty_ || all_too_old_)
-    std::fill(column_seconds_.begin(), column_seconds_.end(), too_old_second());
+    std::fill(column_beats_.begin(), column_beats_.end(), too_old_beat());
   else
-    age_no_further(now(), static_cast<std::uint8_t>(seconds_ + 1), column_seconds_.size(),
-                   column_seconds_.data());
+    age_no_further(now(), static_cast<std::uint8_t>(beats_ + 1), column_beats_.size(), column_beats_.data());
 }
 
 void Memory::forget_old_spans(std::int64_t before, std::int64_t span) {
@@ -101,7 +126,7 @@ void Memory::forget_old_spans(std::int64_t before, std::int64_t span) {
 
 void Memory::begin_stack(std::int32_t bx, std::int32_t by, std::size_t stack, bool enters) {
   if (enters) {
-    std::fill_n(column_seconds_.data() + stack, kBrickColumns, too_old_second());
+    std::fill_n(column_beats_.data() + stack, kBrickColumns, too_old_beat());
     std::fill_n(lowest_ray_m_.data() + stack, kBrickColumns, kNoRay_m);
     for (std::int64_t i = 0; i < kSpans; ++i) std::fill_n(span_of_rays(i) + stack, kBrickColumns, kNoRay_m);
   }
@@ -116,7 +141,7 @@ void Memory::begin_stack(std::int32_t bx, std::int32_t by, std::size_t stack, bo
       columns |= left.map->columns[brick];
       if (bz < low_) left.lower |= left.map->columns[brick];
     }
-    remember_seconds(left, columns, stack);
+    remember_beats(left, columns, stack);
     const std::int32_t own_stack = grid.stack_of_brick(bx, by);
     if (own_stack < 0 || left.span_m == nullptr) continue;
     const float* const rays_m = left.map->lowest_ray_m + std::ptrdiff_t{own_stack} * kBrickColumns;
@@ -126,13 +151,13 @@ void Memory::begin_stack(std::int32_t bx, std::int32_t by, std::size_t stack, bo
   }
 }
 
-void Memory::remember_seconds(const Left& left, std::uint64_t columns, std::size_t stack) {
+void Memory::remember_beats(const Left& left, std::uint64_t columns, std::size_t stack) {
   if (left.too_old) return;
-  const std::uint8_t age = seconds_between(left.second, now());
+  const std::uint8_t age = beats_between(left.beat, now());
   for (std::size_t c = 0; c < kBrickColumns; ++c) {
-    std::uint8_t& second = column_seconds_[stack + c];
-    const bool newer = (columns >> c & 1) != 0 && age < seconds_between(second, now());
-    second = newer ? left.second : second;
+    std::uint8_t& beat = column_beats_[stack + c];
+    const bool newer = (columns >> c & 1) != 0 && age < beats_between(beat, now());
+    beat = newer ? left.beat : beat;
   }
 }
 
@@ -150,13 +175,10 @@ bool Memory::expire(std::uint32_t slot, const BrickCells& cells) {
   if (!brick.has_any || !is_too_old(brick.oldest)) return false;
   RememberedHits* const hits = hits_.data() + std::size_t{slot} * kBrickCells;
   RememberedPasses* const passes = passes_.data() + std::size_t{slot} * kBrickCells;
-  brick.has_any = false;
-  for (std::size_t i = 0; i < kBrickCells; ++i) {
-    if (hits[i].bits != 0 && is_too_old(hits[i].second())) hits[i] = kNoHits;
-    if (passes[i] != 0 && is_too_old(second_in(passes[i]))) passes[i] = 0;
-    if (hits[i].bits != 0) note_second(brick, hits[i].second());
-    if (passes[i] != 0) note_second(brick, second_in(passes[i]));
-  }
+  const std::int32_t kept = all_too_old_ ? -1 : beats_;
+  const std::int32_t oldest = std::max(forget_hits(now(), kept, hits), forget_passes(now(), kept, passes));
+  brick.has_any = oldest >= 0;
+  brick.oldest = static_cast<std::uint8_t>(now_ - oldest);
   bool any = false;
   for_each_cell(brick.shown, [&](std::size_t cell) {
     if (hits[cell].bits != 0 || passes[cell] != 0) return;
@@ -167,9 +189,8 @@ bool Memory::expire(std::uint32_t slot, const BrickCells& cells) {
   return any;
 }
 
-void Memory::note_second(Brick& brick, std::uint8_t second) {
-  if (!brick.has_any || seconds_between(brick.oldest, now()) < seconds_between(second, now()))
-    brick.oldest = second;
+void Memory::note_beat(Brick& brick, std::uint8_t beat) {
+  if (!brick.has_any || beats_between(brick.oldest, now()) < beats_between(beat, now())) brick.oldest = beat;
   brick.has_any = true;
 }
 
@@ -203,12 +224,12 @@ void Memory::remember(std::uint32_t slot, std::size_t i, std::int32_t brick) {
   read_passes(lookup, passes);
   for_each_cell(silent, [&](std::size_t cell) { passes[cell] = 0; });
   const std::size_t begin = std::size_t{slot} * kBrickCells;
-  add_passes(passes, left.second, now(), passes_.data() + begin);
+  add_passes(passes, left.beat, now(), passes_.data() + begin);
   for_each_cell(hit, [&](std::size_t cell) {
     RememberedHits& hits = hits_[begin + cell];
-    hits = with_record(hits, map.records[lookup[cell]], left.second, now());
+    hits = with_record(hits, map.records[lookup[cell]], left.beat, now());
   });
-  note_second(bricks_[slot], left.second);
+  note_beat(bricks_[slot], left.beat);
 }
 
 bool Memory::show(std::uint32_t slot, const CellBits& free, const CellBits& occupied,

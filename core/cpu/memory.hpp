@@ -24,7 +24,7 @@ class Memory {
   /// Takes no room where nothing is remembered. @param most_maps that can leave the window at a time
   Memory(const Grid& grid, const MemoryConfig& config, std::size_t most_maps);
 
-  [[nodiscard]] bool on() const { return seconds_ > 0; }
+  [[nodiscard]] bool on() const { return beats_ > 0; }
 
   /// A map has come: what is too old now is to be forgotten, and some maps have left the window.
   void begin(const Window& window);
@@ -51,7 +51,7 @@ class Memory {
     return (bricks_[cell / kBrickCells].shown[cell % kBrickCells / 8] >> (cell % 8) & 1) != 0;
   }
   [[nodiscard]] MemoryView view(const std::uint64_t* remembered) const {
-    return {remembered, hits_.data(), column_seconds_.data(), lowest_ray_m_.data()};
+    return {remembered, hits_.data(), column_beats_.data(), lowest_ray_m_.data()};
   }
 
   void reset();
@@ -60,31 +60,31 @@ class Memory {
   struct Brick {
     CellBits shown{};
     bool has_any = false;
-    std::uint8_t oldest = 0;  // no voxel is of an older second
+    std::uint8_t oldest = 0;  // no voxel is of an older beat
   };
   // A map that left.
   struct Left {
     const BrickMapView* map;
-    std::uint8_t second;
+    std::uint8_t beat;
     bool too_old;
     float* span_m;        // of its rays, or nullptr
     std::uint64_t lower;  // columns that it observed in lower bricks of the stack in work
   };
 
   [[nodiscard]] std::uint8_t now() const { return static_cast<std::uint8_t>(now_); }
-  [[nodiscard]] bool is_too_old(std::uint8_t second) const {
-    return all_too_old_ || seconds_between(second, now()) > seconds_;
+  [[nodiscard]] bool is_too_old(std::uint8_t beat) const {
+    return all_too_old_ || beats_between(beat, now()) > beats_;
   }
-  // A second that is too old, as far as a byte can say it.
-  [[nodiscard]] std::uint8_t too_old_second() const { return static_cast<std::uint8_t>(now_ - seconds_ - 1); }
+  // A beat that is too old, as far as a byte can say it.
+  [[nodiscard]] std::uint8_t too_old_beat() const { return static_cast<std::uint8_t>(now_ - beats_ - 1); }
   [[nodiscard]] float* span_of_rays(std::int64_t number);
   void forget_old_columns();
   void forget_old_spans(std::int64_t before, std::int64_t span);
-  void note_second(Brick& brick, std::uint8_t second);
-  void remember_seconds(const Left& left, std::uint64_t columns, std::size_t stack);
+  void note_beat(Brick& brick, std::uint8_t beat);
+  void remember_beats(const Left& left, std::uint64_t columns, std::size_t stack);
 
-  std::int32_t seconds_;
-  std::int64_t now_ = 0;  // the second of the newest stamp
+  std::int32_t beats_;
+  std::int64_t now_ = 0;  // the beat of the newest stamp
   std::int32_t low_ = 0;  // the grid's lowest brick
   bool empty_ = true;
   bool all_too_old_ = false;  // all that was remembered before this tick
@@ -93,7 +93,7 @@ class Memory {
   std::vector<Brick> bricks_;
   std::vector<RememberedHits> hits_;
   std::vector<RememberedPasses> passes_;
-  std::vector<std::uint8_t> column_seconds_;
+  std::vector<std::uint8_t> column_beats_;
   std::vector<float> spans_m_;       // kSpans times, column_in_stacks
   std::vector<float> lowest_ray_m_;  // the minimum of the spans
 };

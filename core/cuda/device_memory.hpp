@@ -11,13 +11,13 @@ namespace gvom::cuda {
 
 /// Null pointers where nothing is remembered.
 struct DeviceMemory {
-  RememberedHits* hits;      ///< As the voxels of DenseBricks.
-  RememberedPasses* passes;  ///< Likewise.
-  std::uint16_t* oldest;     ///< For each half of a brick: no voxel is of an older second; see `with_second`.
-  std::uint64_t* remembered;     ///< The mask of MemoryView.
-  std::uint8_t* column_seconds;  ///< Of MemoryView.
-  float* lowest_ray_m;           ///< Likewise: the minimum of the spans.
-  float* spans_m;                ///< `kSpans` times as many.
+  RememberedHits* hits;        ///< As the voxels of DenseBricks.
+  RememberedPasses* passes;    ///< Likewise.
+  std::uint16_t* oldest;       ///< For each half of a brick: no voxel is of an older beat; see `with_beat`.
+  std::uint64_t* remembered;   ///< The mask of MemoryView.
+  std::uint8_t* column_beats;  ///< Of MemoryView.
+  float* lowest_ray_m;         ///< Likewise: the minimum of the spans.
+  float* spans_m;              ///< `kSpans` times as many.
 
   static constexpr std::int32_t kHalves = 2;
 
@@ -37,7 +37,7 @@ struct DeviceMemory {
                                   wrap(world_brick[2], bricks[2]), bricks[0], bricks[1])} *
            kHalves;
   }
-  /// `age` of the oldest second in a half, -1 if it has none, as it is kept.
+  /// `age` of the oldest beat in a half, -1 if it has none, as it is kept.
   [[nodiscard]] __device__ static std::uint16_t kept(std::int32_t age, std::int64_t now) {
     return age < 0 ? std::uint16_t{0} : static_cast<std::uint16_t>(0x100 | ((now - age) & 0xFF));
   }

@@ -16,14 +16,14 @@ namespace gvom::cuda {
 
 /// What the memory must know of a tick (R17).
 struct MemoryTick {
-  std::int64_t now;           ///< The second of the newest stamp.
-  std::int32_t seconds;       ///< How long something is remembered; 0: nothing is.
+  std::int64_t now;           ///< The beat of the newest stamp.
+  std::int32_t beats;         ///< How long something is remembered; 0: nothing is.
   std::int32_t spans_passed;  ///< Of rays: so many begin with this tick.
   bool all_too_old;           ///< What was remembered before it.
 
-  /// Of a second that is not newer than `now`, from a tick before.
-  [[nodiscard]] __device__ bool is_too_old(std::uint8_t second) const {
-    return all_too_old || seconds_between(second, static_cast<std::uint8_t>(now)) > seconds;
+  /// Of a beat that is not newer than `now`, from a tick before.
+  [[nodiscard]] __device__ bool is_too_old(std::uint8_t beat) const {
+    return all_too_old || beats_between(beat, static_cast<std::uint8_t>(now)) > beats;
   }
 };
 

@@ -15,7 +15,7 @@ FusedMap::FusedMap(Device& device, const MapperConfig& config, std::size_t most_
     : device_(device),
       grid_(grid_around(config.map, Eigen::Vector3d::Zero())),
       words_((config.map.size_z + 63) / 64),
-      seconds_remembered_(seconds_remembered(config.memory.max_age_s)),
+      beats_remembered_(beats_remembered(config.memory.max_age_s)),
       tick_bytes_(sizeof(FuseTick) + most_maps * sizeof(DeviceMap)) {
   const std::size_t slots = grid_.brick_slots();
   const std::size_t cells = slots * kBrickCells;
@@ -25,7 +25,7 @@ FusedMap::FusedMap(Device& device, const MapperConfig& config, std::size_t most_
   free_ = static_cast<std::uint64_t*>(device.allocate(mask_bytes()));
   last_seen_ns_ = device.array<std::int64_t>(columns());
   lowest_ray_m_ = device.array<float>(columns());
-  if (seconds_remembered_ > 0) take_memory();
+  if (beats_remembered_ > 0) take_memory();
   tick_ = device.array<std::byte>(tick_bytes_);
   staged_ = device.pinned_array<std::byte>(kStaged * tick_bytes_);
   listed_ = device.array<std::uint32_t>(slots);
@@ -62,7 +62,7 @@ void FusedMap::record(std::uint32_t min_hits) {
                           UpdateBricks{tick, listed_, bricks_, occupied, free, words_ * 8, min_hits});
     for_each_warp(device_, stacks, UpdateLastSeen{tick, last_seen_ns_, grid_.size[0]});
     for_each_warp(device_, stacks, UpdateLowestRays{tick, lowest_ray_m_});
-    if (seconds_remembered_ == 0) return;
+    if (beats_remembered_ == 0) return;
     for_each_warp_counted(
         device_, listed_count_, UpdateMemory::kPerBrick,
         UpdateMemory{tick, listed_, bricks_, memory_, occupied, free, words_ * 8, min_hits});
@@ -86,7 +86,7 @@ FusedView FusedMap::view() const {
           free_,
           last_seen_ns_,
           lowest_ray_m_,
-          {memory_.remembered, memory_.hits, memory_.column_seconds, memory_.lowest_ray_m}};
+          {memory_.remembered, memory_.hits, memory_.column_beats, memory_.lowest_ray_m}};
 }
 
 void FusedMap::clear() {
@@ -110,7 +110,7 @@ void FusedMap::update(const Window& window, std::uint32_t added_place, const Map
   std::byte* const staged = next_staged();
   const std::size_t bytes = write_tick(window, added_place, ring, staged);
   grid_ = window.maps().front().view.grid;
-  newest_second_ = second_of(window.maps().front().view.stamp_ns);
+  newest_beat_ = beat_of(window.maps().front().view.stamp_ns);
   empty_ = false;
   device_.upload(tick_, staged, bytes);
   device_.play(update_);
@@ -126,11 +126,11 @@ std::byte* FusedMap::next_staged() {
 }
 
 MemoryTick FusedMap::memory_tick(std::int64_t newest_ns) const {
-  if (seconds_remembered_ == 0) return {};
-  const std::int64_t now = second_of(newest_ns), before = empty_ ? now : newest_second_;
-  const std::int64_t spans = span_of(now, seconds_remembered_) - span_of(before, seconds_remembered_);
-  return {now, seconds_remembered_, static_cast<std::int32_t>(std::min<std::int64_t>(spans, kSpans)),
-          now - before > seconds_remembered_};
+  if (beats_remembered_ == 0) return {};
+  const std::int64_t now = beat_of(newest_ns), before = empty_ ? now : newest_beat_;
+  const std::int64_t spans = span_of(now, beats_remembered_) - span_of(before, beats_remembered_);
+  return {now, beats_remembered_, static_cast<std::int32_t>(std::min<std::int64_t>(spans, kSpans)),
+          now - before > beats_remembered_};
 }
 
 std::size_t FusedMap::write_tick(const Window& window, std::uint32_t added_place, const MapRing& ring,

@@ -52,12 +52,12 @@ class FusedMap {
   std::uint64_t* free_;
   std::int64_t* last_seen_ns_;
   float* lowest_ray_m_;
-  std::int32_t seconds_remembered_;  // 0: nothing is
+  std::int32_t beats_remembered_;  // 0: nothing is
   DeviceMemory memory_{};
-  std::int64_t newest_second_ = 0;  // of the memory
-  std::byte* tick_;                 // a FuseTick and its maps
-  std::size_t tick_bytes_;          // room for it
-  std::byte* staged_;               // pinned, kStaged times
+  std::int64_t newest_beat_ = 0;  // of the memory
+  std::byte* tick_;               // a FuseTick and its maps
+  std::size_t tick_bytes_;        // room for it
+  std::byte* staged_;             // pinned, kStaged times
   std::size_t staged_ticks_ = 0;
   std::uint32_t* listed_;
   std::uint32_t* listed_count_;

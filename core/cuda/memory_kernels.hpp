@@ -32,8 +32,8 @@ struct RememberedColumn {
     passes = read_eight(memory.passes + begin);
     GVOM_UNROLL
     for (int z = 0; z < kBrickEdge; ++z) {
-      if (tick.is_too_old(hits.at[z].second())) hits.at[z] = kNoHits;
-      if (tick.is_too_old(second_in(passes.at[z]))) passes.at[z] = 0;
+      if (tick.is_too_old(hits.at[z].beat())) hits.at[z] = kNoHits;
+      if (tick.is_too_old(beat_in(passes.at[z]))) passes.at[z] = 0;
     }
   }
   __device__ void write(const DeviceMemory& memory, std::size_t begin) const {
@@ -51,9 +51,9 @@ struct RememberedColumn {
       passed |= static_cast<unsigned>(free_passes(lookup.at[z]) != 0) << z;
     }
     left |= static_cast<std::uint8_t>(hit | passed);
-    const std::int64_t second = second_of(map.stamp_ns);
-    if (tick.now - second > tick.seconds) return;
-    const auto last = static_cast<std::uint8_t>(second), now = static_cast<std::uint8_t>(tick.now);
+    const std::int64_t beat = beat_of(map.stamp_ns);
+    if (tick.now - beat > tick.beats) return;
+    const auto last = static_cast<std::uint8_t>(beat), now = static_cast<std::uint8_t>(tick.now);
     const std::uint8_t telling =
         telling_passes(static_cast<std::uint8_t>(hit), static_cast<std::uint8_t>(passed), lower);
     GVOM_UNROLL
@@ -64,17 +64,17 @@ struct RememberedColumn {
     }
   }
 
-  /// The age of the oldest second, or -1.
+  /// The age of the oldest beat, or -1.
   [[nodiscard]] __device__ std::int32_t oldest_age(std::uint8_t now) const {
     std::int32_t oldest = -1;
-    const auto note = [&](std::uint8_t second) {
-      const std::int32_t age = seconds_between(second, now);
+    const auto note = [&](std::uint8_t beat) {
+      const std::int32_t age = beats_between(beat, now);
       oldest = age > oldest ? age : oldest;
     };
     GVOM_UNROLL
     for (int z = 0; z < kBrickEdge; ++z) {
-      if (hits.at[z].bits != 0) note(hits.at[z].second());
-      if (passes.at[z] != 0) note(second_in(passes.at[z]));
+      if (hits.at[z].bits != 0) note(hits.at[z].beat());
+      if (passes.at[z] != 0) note(beat_in(passes.at[z]));
     }
     return oldest;
   }
@@ -163,7 +163,7 @@ struct UpdateMemory {
   }
 };
 
-/// For each stack of the grid's bricks, two of its columns for a lane: in which second a map that left had
+/// For each stack of the grid's bricks, two of its columns for a lane: in which beat a map that left had
 /// observed each, and how low rays were.
 struct RememberStacks {
   const FuseTick* tick;
@@ -184,7 +184,7 @@ struct RememberStacks {
       for_each_lane([&](std::int32_t lane) {
         for_each_half([&](std::int32_t half) {
           const std::size_t c = column(lane, half);
-          if ((seen >> c & 1) != 0) note_second(map, first + c);
+          if ((seen >> c & 1) != 0) note_beat(map, first + c);
           if (rays_m != nullptr)
             lower_span(map, first + c, rays_m[c] + doubt_of_rays_m(map.grid, brick[0], brick[1]));
         });
@@ -208,10 +208,10 @@ struct RememberStacks {
 
   __device__ void begin(std::size_t column, bool enters) const {
     const MemoryTick& now = tick->memory;
-    std::uint8_t& second = memory.column_seconds[column];
-    if (enters || now.is_too_old(second)) second = static_cast<std::uint8_t>(now.now - now.seconds - 1);
+    std::uint8_t& beat = memory.column_beats[column];
+    if (enters || now.is_too_old(beat)) beat = static_cast<std::uint8_t>(now.now - now.beats - 1);
     if (!enters && now.spans_passed == 0) return;
-    const std::int64_t newest = span_of(now.now, now.seconds);
+    const std::int64_t newest = span_of(now.now, now.beats);
     float lowest_m = kNoRay_m;
     for (std::int32_t back = 0; back < kSpans; ++back) {
       float& span_m = span(newest - back)[column];
@@ -221,18 +221,18 @@ struct RememberStacks {
     memory.lowest_ray_m[column] = lowest_m;
   }
 
-  __device__ void note_second(const DeviceMap& map, std::size_t column) const {
-    const std::int64_t now = tick->memory.now, second = second_of(map.stamp_ns);
-    if (now - second > tick->memory.seconds) return;
-    std::uint8_t& newest = memory.column_seconds[column];
-    if (now - second < seconds_between(newest, static_cast<std::uint8_t>(now)))
-      newest = static_cast<std::uint8_t>(second);
+  __device__ void note_beat(const DeviceMap& map, std::size_t column) const {
+    const std::int64_t now = tick->memory.now, beat = beat_of(map.stamp_ns);
+    if (now - beat > tick->memory.beats) return;
+    std::uint8_t& newest = memory.column_beats[column];
+    if (now - beat < beats_between(newest, static_cast<std::uint8_t>(now)))
+      newest = static_cast<std::uint8_t>(beat);
   }
 
   __device__ void lower_span(const DeviceMap& map, std::size_t column, float ray_m) const {
-    const std::int32_t seconds = tick->memory.seconds;
-    const std::int64_t own = span_of(second_of(map.stamp_ns), seconds);
-    if (span_of(tick->memory.now, seconds) - own >= kSpans) return;
+    const std::int32_t beats = tick->memory.beats;
+    const std::int64_t own = span_of(beat_of(map.stamp_ns), beats);
+    if (span_of(tick->memory.now, beats) - own >= kSpans) return;
     float& span_m = span(own)[column];
     span_m = lower(span_m, ray_m);
     memory.lowest_ray_m[column] = lower(memory.lowest_ray_m[column], ray_m);

@@ -38,8 +38,8 @@ const std::vector<VehicleRow>& vehicle_rows() {
       {{"window.max_age_s", "s", Rule::range, 0, 3600, kOptional,
         "no map is older than this before the newest stamp (R7)"},
        [](V& c) -> Field { return &c.mapper.window.max_age_s; }},
-      {{"memory.max_age_s", "s", Rule::range, 0, 120, kOptional,
-        "what left the window is remembered for so long, to the next 1.07 s; 0: not at all (R17)"},
+      {{"memory.max_age_s", "s", Rule::range, 0, 60, kOptional,
+        "what left the window is remembered for so long, to the next 0.54 s; 0: not at all (R17)"},
        [](V& c) -> Field { return &c.mapper.memory.max_age_s; }},
 
       {{"vehicle.body_min_m", "m", Rule::corner, -100, 100, kOptional,

@@ -43,7 +43,7 @@ TEST_CASE("Random drives with a memory give the oracle's bits") {
 TEST_CASE("Random drives with a memory of many seconds give the oracle's bits") {
   race(Backend::cpu, {8, 8, 60, 60, true, 20, 700'000'000}, 3400, seed_count(30));
   race(Backend::cpu, {64, 8, 60, 150, false, 30, 700'000'000}, 3500, seed_count(8));
-  race(Backend::cpu, {64, 64, 40, 250, false, 120, 5'000'000'000}, 3600, seed_count(4));
+  race(Backend::cpu, {64, 64, 40, 250, false, 60, 3'000'000'000}, 3600, seed_count(4));
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ TEST_CASE("CUDA: random drives with a memory give the oracle's bits") {
   race(Backend::cuda, {64, 64, 40, 250, false, 3}, 3200, 2);
   race(Backend::cuda, {8, 8, 60, 60, true, 20, 700'000'000}, 3400, seed_count(10));
   race(Backend::cuda, {64, 8, 60, 150, false, 30, 700'000'000}, 3500, seed_count(3));
-  race(Backend::cuda, {64, 64, 40, 250, false, 120, 5'000'000'000}, 3600, 2);
+  race(Backend::cuda, {64, 64, 40, 250, false, 60, 3'000'000'000}, 3600, 2);
 }
 
 }  // namespace

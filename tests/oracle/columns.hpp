@@ -55,14 +55,18 @@ class ColumnVoxels {
   }
   [[nodiscard]] bool solid(int z) const { return occupied(z) && !worn(z); }
 
-  /// The voxel of the column's lowest return (R9, R17), or -1: the lowest solid one, unless that is
-  /// remembered and the window has a solid one right above.
-  [[nodiscard]] int ground() const {
+  /// The lowest solid voxel that the rules go by (R17), or -1.
+  /// @param window_ray_m the lowest ray of the window in the column
+  [[nodiscard]] int ground(float window_ray_m) const {
     const int z = lowest(&ColumnVoxels::solid);
-    const bool twice = z >= 0 && z + 1 < count() && at(z).remembered && !at(z + 1).remembered && solid(z + 1);
-    return twice ? z + 1 : z;
+    if (z < 0 || !at(z).remembered) return z;
+    for (int seen = z + 1; seen < count(); ++seen) {
+      if (!solid(seen) || at(seen).remembered) continue;
+      const bool hangs = at(seen).min_height_m - window_ray_m > 0.3f;
+      return hangs && seen > z + 1 ? z : seen;
+    }
+    return z;
   }
-  [[nodiscard]] bool remembers_ground() const { return ground() >= 0 && at(ground()).remembered; }
 
   /// The lowest voxel that `is` so, or -1.
   [[nodiscard]] int lowest(bool (ColumnVoxels::*is)(int) const) const {

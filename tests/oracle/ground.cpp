@@ -46,7 +46,7 @@ bool hangs(const ColumnVoxels& column, int lowest, float lowest_ray_m) {
 // 1 to 3.
 void read_column(const FusedColumns& map, int x, int y, Ground& ground) {
   const ColumnVoxels column = map.column(x, y);
-  const int lowest = column.ground();
+  const int lowest = map.ground(x, y);
   if (lowest < 0) {
     const float assumed_m = assumed_ground_m(map, x, y);
     ground.known_m.set(x, y, assumed_m);

@@ -17,6 +17,11 @@ struct FusedColumns {
   const Columns<float>& window_ray_m;  ///< R5a, of the window alone.
 
   [[nodiscard]] ColumnVoxels column(int x, int y) const { return {config.layers, voxels, x, y}; }
+  /// The column's lowest solid voxel (R17), or -1.
+  [[nodiscard]] int ground(int x, int y) const { return column(x, y).ground(window_ray_m.at(x, y)); }
+  [[nodiscard]] bool remembers_ground(int x, int y) const {
+    return ground(x, y) >= 0 && column(x, y).at(ground(x, y)).remembered;
+  }
 };
 
 /// Heights that are not known are +infinity.

@@ -15,7 +15,7 @@ namespace gvom::oracle {
 namespace {
 
 constexpr std::int64_t kNever_ns = INT64_MIN;
-constexpr std::int64_t kSecond_ns = 1 << 30;  // of the memory
+constexpr std::int64_t kBeat_ns = 1 << 29;  // of the memory
 
 // R10, R15, and what R9 found.
 void write_ground(const FusedColumns& map, const Ground& ground, bool of_window, int x, int y, Layers& out) {
@@ -29,7 +29,7 @@ void write_ground(const FusedColumns& map, const Ground& ground, bool of_window,
   out.inferred_height[i] =
       free < 0 ? NAN : static_cast<float>((map.newest.grid.origin[2] + free) * map.config.map.resolution_z_m);
   out.flags[i] = assumed ? kAssumed : 0;
-  const bool remembered = solid ? column.remembers_ground() : free >= 0 && !of_window;
+  const bool remembered = solid ? map.remembers_ground(x, y) : free >= 0 && !of_window;
   out.visibility[i] = assumed ? 2 : remembered ? 4 : solid && known ? 3 : solid || free >= 0 ? 1 : 0;
 }
 
@@ -54,7 +54,7 @@ void fit_plane(const MapperConfig& config, const Ground& ground, int x, int y, L
 // R15.
 void write_last_seen(const FusedColumns& map, const Fusion& fusion, Layers& out) {
   const std::vector<std::int64_t> newest_ns = newest_stamps(fusion);
-  const std::vector<std::int64_t> seconds = fusion.memory().column_seconds();  // empty where it is off
+  const std::vector<std::int64_t> beats = fusion.memory().column_beats();  // empty where it is off
   const auto since = [&](std::int64_t stamp_ns) {
     return static_cast<float>(static_cast<double>(map.newest.stamp_ns - stamp_ns) * 1e-9);
   };
@@ -63,25 +63,12 @@ void write_last_seen(const FusedColumns& map, const Fusion& fusion, Layers& out)
     const ColumnVoxels column = map.column(x, y);
     const bool free = column.lowest(&ColumnVoxels::free) >= 0;
     out.last_seen[i] = NAN;
-    if (column.remembers_ground())
-      out.last_seen[i] = since(column.at(column.ground()).second * kSecond_ns);
+    if (map.remembers_ground(x, y))
+      out.last_seen[i] = since(column.at(map.ground(x, y)).beat * kBeat_ns);
     else if (newest_ns[i] != kNever_ns)
       out.last_seen[i] = since(newest_ns[i]);
-    else if (free || column.ground() >= 0)
-      out.last_seen[i] = since(seconds[i] * kSecond_ns);
-  });
-}
-
-// What the layers of a column are made of: where the window has its ground, the rays of the window alone
-// (R17).
-void find_rays(const Fusion& fusion, const FusedColumns& map, Columns<float>& all_m,
-               Columns<float>& window_m) {
-  ColumnHeights of_window = fusion.lowest_ray(), remembered = fusion.remembered_ray();
-  each_column(all_m.n(), [&](int x, int y) {
-    const ColumnVoxels column = map.column(x, y);
-    const bool alone = column.ground() >= 0 && !column.remembers_ground();
-    window_m.set(x, y, *of_window.at(x, y));
-    all_m.set(x, y, alone ? *of_window.at(x, y) : std::min(*of_window.at(x, y), *remembered.at(x, y)));
+    else if (free || map.ground(x, y) >= 0)
+      out.last_seen[i] = since(beats[i] * kBeat_ns);
   });
 }
 
@@ -91,6 +78,23 @@ ColumnAt vehicle_column(const BufferMap& newest) {
   };
   const Eigen::Vector3d& vehicle_m = newest.T_odom_base.translation_m;
   return {along(0, vehicle_m.x()), along(1, vehicle_m.y())};
+}
+
+// The rays that columns are judged by: of the window, and with what is remembered (R17).
+void find_rays(const Fusion& fusion, const FusedColumns& map, Columns<float>& window_m,
+               Columns<float>& all_m) {
+  ColumnHeights of_window = fusion.lowest_ray(), remembered = fusion.remembered_ray();
+  const ColumnAt vehicle = vehicle_column(map.newest);
+  each_column(all_m.n(), [&](int x, int y) { window_m.set(x, y, *of_window.at(x, y)); });
+  each_column(all_m.n(), [&](int x, int y) {
+    const double columns =
+        std::sqrt(double((x - vehicle.x) * (x - vehicle.x) + (y - vehicle.y) * (y - vehicle.y)));
+    const bool far = map.config.map.resolution_xy_m * columns > 8;
+    const bool seen_through = map.ground(x, y) < 0 && window_m.at(x, y) < INFINITY;
+    const bool seen_ground = map.ground(x, y) >= 0 && !map.remembers_ground(x, y);
+    const bool alone = seen_ground || (seen_through && far);
+    all_m.set(x, y, alone ? window_m.at(x, y) : std::min(window_m.at(x, y), *remembered.at(x, y)));
+  });
 }
 
 // R16.
@@ -153,7 +157,7 @@ Layers make_layers(const MapperConfig& config, const Fusion& fusion) {
   Layers out(config.map.size_xy);
   Columns<float> lowest_ray_m(out.n, INFINITY), window_ray_m(out.n, INFINITY);
   const FusedColumns map{config, voxels, newest, lowest_ray_m, window_ray_m};
-  find_rays(fusion, map, lowest_ray_m, window_ray_m);
+  find_rays(fusion, map, window_ray_m, lowest_ray_m);
   const Ground ground = find_ground(map);
   const std::vector<std::int64_t> newest_ns = newest_stamps(fusion);
   each_column(out.n, [&](int x, int y) {

@@ -8,7 +8,7 @@ namespace gvom::oracle {
 
 namespace {
 
-constexpr std::int64_t kSecond_ns = 1 << 30;
+constexpr std::int64_t kBeat_ns = 1 << 29;
 
 std::int64_t floor_of_quotient(std::int64_t a, std::int64_t b) {
   const std::int64_t rest = ((a % b) + b) % b;
@@ -32,9 +32,9 @@ std::vector<WorldVoxel> telling_of(const BufferMap& map) {
   return telling;
 }
 
-// The voxels of a sum over the maps of one second.
+// The voxels of a sum over the maps of one beat.
 struct Sum {
-  std::int64_t second = INT64_MIN;
+  std::int64_t beat = INT64_MIN;
   std::uint64_t hits = 0, passes_with_hits = 0, passes = 0;
   float min_height_m = std::numeric_limits<float>::infinity();
 };
@@ -42,13 +42,13 @@ struct Sum {
 }  // namespace
 
 Memory::Memory(const MemoryConfig& config)
-    : seconds_(static_cast<std::int64_t>(std::ceil(config.max_age_s * 1e9 / kSecond_ns))) {}
+    : beats_(static_cast<std::int64_t>(std::ceil(config.max_age_s * 1e9 / kBeat_ns))) {}
 
 void Memory::step(const Grid& grid, std::int64_t newest_ns, const std::vector<BufferMap>& left) {
-  if (seconds_ == 0) return;
+  if (beats_ == 0) return;
   ++steps_;
   grid_ = grid;
-  now_ = floor_of_quotient(newest_ns, kSecond_ns);
+  now_ = floor_of_quotient(newest_ns, kBeat_ns);
   const Int3 low{brick_of(grid.origin[0]), brick_of(grid.origin[1]), brick_of(grid.origin[2])};
   std::map<Int3, std::int64_t> bricks;
   std::map<std::pair<int, int>, std::int64_t> stacks;
@@ -61,9 +61,9 @@ void Memory::step(const Grid& grid, std::int64_t newest_ns, const std::vector<Bu
   bricks_ = bricks;
   stacks_ = stacks;
   for (const BufferMap& map : left)
-    gone_.push_back({steps_, floor_of_quotient(map.stamp_ns, kSecond_ns), map, telling_of(map)});
+    gone_.push_back({steps_, floor_of_quotient(map.stamp_ns, kBeat_ns), map, telling_of(map)});
   // Of no more use: time only goes on.
-  const auto is_past = [&](const Gone& gone) { return now_ - gone.second > 3 * seconds_ + 10; };
+  const auto is_past = [&](const Gone& gone) { return now_ - gone.beat > 3 * beats_ + 10; };
   gone_.erase(std::remove_if(gone_.begin(), gone_.end(), is_past), gone_.end());
 }
 
@@ -71,11 +71,11 @@ void Memory::add_to(VoxelBox& voxels) const {
   std::map<Int3, Sum> sums;
   for (const Gone& gone : gone_)
     for (const WorldVoxel& one : gone.telling) {
-      if (too_old(gone.second) || !voxels.holds(one.at) || voxels[one.at].observed()) continue;
+      if (too_old(gone.beat) || !voxels.holds(one.at) || voxels[one.at].observed()) continue;
       if (gone.step < bricks_.at({brick_of(one.at[0]), brick_of(one.at[1]), brick_of(one.at[2])})) continue;
       Sum& sum = sums[one.at];
-      if (gone.second < sum.second) continue;
-      if (gone.second > sum.second) sum = {gone.second};
+      if (gone.beat < sum.beat) continue;
+      if (gone.beat > sum.beat) sum = {gone.beat};
       sum.hits += one.voxel.hits;
       (one.voxel.hits > 0 ? sum.passes_with_hits : sum.passes) += one.voxel.passes;
       sum.min_height_m = std::min(sum.min_height_m, one.voxel.min_height_m);
@@ -87,15 +87,15 @@ void Memory::add_to(VoxelBox& voxels) const {
                                               std::min<std::uint64_t>(sum.passes, 255));
     voxel.min_height_m = sum.min_height_m;
     voxel.remembered = true;
-    voxel.second = sum.second;
+    voxel.beat = sum.beat;
   }
 }
 
 ColumnHeights Memory::lowest_ray() const {
   ColumnHeights lowest(grid_);
-  const std::int64_t span = (seconds_ + 3) / 4;
+  const std::int64_t span = (beats_ + 3) / 4;
   for (const Gone& gone : gone_) {
-    if (floor_of_quotient(now_, span) - floor_of_quotient(gone.second, span) > 4) continue;
+    if (floor_of_quotient(now_, span) - floor_of_quotient(gone.beat, span) > 4) continue;
     const Grid& grid = gone.map.grid;
     ColumnHeights rays = gone.map.lowest_ray;
     for (int y = 0; y < grid_.size[1]; ++y)
@@ -113,18 +113,18 @@ ColumnHeights Memory::lowest_ray() const {
   return lowest;
 }
 
-std::vector<std::int64_t> Memory::column_seconds() const {
-  std::vector<std::int64_t> seconds(std::size_t(grid_.size[0]) * std::size_t(grid_.size[1]), INT64_MIN);
+std::vector<std::int64_t> Memory::column_beats() const {
+  std::vector<std::int64_t> beats(std::size_t(grid_.size[0]) * std::size_t(grid_.size[1]), INT64_MIN);
   for (const Gone& gone : gone_)
     for (const WorldVoxel& one : gone.map.observed) {
       const std::int64_t x = std::int64_t{one.at[0]} - grid_.origin[0];
       const std::int64_t y = std::int64_t{one.at[1]} - grid_.origin[1];
       if (x < 0 || y < 0 || x >= grid_.size[0] || y >= grid_.size[1]) continue;
       if (gone.step < stacks_.at({brick_of(one.at[0]), brick_of(one.at[1])})) continue;
-      std::int64_t& second = seconds[std::size_t(y) * std::size_t(grid_.size[0]) + std::size_t(x)];
-      second = std::max(second, gone.second);
+      std::int64_t& beat = beats[std::size_t(y) * std::size_t(grid_.size[0]) + std::size_t(x)];
+      beat = std::max(beat, gone.beat);
     }
-  return seconds;
+  return beats;
 }
 
 }  // namespace gvom::oracle

@@ -17,7 +17,7 @@ class Memory {
  public:
   explicit Memory(const MemoryConfig& config);
 
-  [[nodiscard]] bool on() const { return seconds_ > 0; }
+  [[nodiscard]] bool on() const { return beats_ > 0; }
 
   /// A map has come: the fused map's grid now, the newest stamp, and the maps that left.
   void step(const Grid& grid, std::int64_t newest_ns, const std::vector<BufferMap>& left);
@@ -26,21 +26,21 @@ class Memory {
   void add_to(VoxelBox& voxels) const;
   /// The lowest heights of rays.
   [[nodiscard]] ColumnHeights lowest_ray() const;
-  /// The newest second of a map that observed the column, [y][x]; INT64_MIN: none.
-  [[nodiscard]] std::vector<std::int64_t> column_seconds() const;
+  /// The newest beat of a map that observed the column, [y][x]; INT64_MIN: none.
+  [[nodiscard]] std::vector<std::int64_t> column_beats() const;
 
  private:
   // A map that left at a step, with what it says.
   struct Gone {
     std::int64_t step;
-    std::int64_t second;
+    std::int64_t beat;
     BufferMap map;
     std::vector<WorldVoxel> telling;
   };
 
-  [[nodiscard]] bool too_old(std::int64_t second) const { return now_ - second > seconds_; }
+  [[nodiscard]] bool too_old(std::int64_t beat) const { return now_ - beat > beats_; }
 
-  std::int64_t seconds_;
+  std::int64_t beats_;
   std::int64_t steps_ = 0;
   std::int64_t now_ = 0;
   Grid grid_;

@@ -79,8 +79,8 @@ class Obstacles {
 
   // How high over the ground of a column the lowest ray left another one.
   [[nodiscard]] double ray_over_m(const ColumnAt& column, const ColumnAt& at) const {
-    const bool remembered = map_.column(column.x, column.y).remembers_ground();
-    const Columns<float>& rays_m = remembered ? map_.lowest_ray_m : map_.window_ray_m;
+    const Columns<float>& rays_m =
+        map_.remembers_ground(column.x, column.y) ? map_.lowest_ray_m : map_.window_ray_m;
     return double{rays_m.at(at.x, at.y)} - double{ground_.height_m.at(column.x, column.y)};
   }
 

@@ -14,8 +14,8 @@ struct Voxel {
   std::uint32_t hits = 0;
   std::uint32_t passes = 0;
   float min_height_m = std::numeric_limits<float>::infinity();
-  bool remembered = false;  ///< Not of the window (R17), but of a second:
-  std::int64_t second = 0;
+  bool remembered = false;  ///< Not of the window (R17), but of a beat:
+  std::int64_t beat = 0;
 
   [[nodiscard]] bool observed() const { return hits > 0 || passes > 0; }
 };
