@@ -19,15 +19,19 @@ Rig rig_on(Height&& z_m) {
   return rig;
 }
 
-// One on a slope, the vehicle leaning with it. @param up_rad the way up, from the x axis
-Rig rig_on_slope(double slope_rad, double up_rad) {
+// Sweeps on a slope, one each 0.37 m along x, the vehicle leaning with it. @param up_rad the way up, from the
+// x axis
+Rig rig_on_slope(double slope_rad, double up_rad, int sweeps = 1) {
   const Eigen::Vector3d across(std::sin(up_rad), -std::cos(up_rad), 0);
   const Eigen::Quaterniond lean(Eigen::AngleAxisd(slope_rad, across));
   const auto z_m = [&](double x, double y) {
     return std::tan(slope_rad) * (std::cos(up_rad) * x + std::sin(up_rad) * y);
   };
   Rig rig;
-  rig.see(scan({0, 0, 0}, z_m, lean), 1'000'000'000, {0, 0, 0}, lean);
+  for (int i = 0; i < sweeps; ++i) {
+    const Eigen::Vector3d vehicle_m(0.37 * i, 0, z_m(0.37 * i, 0));
+    rig.see(scan(vehicle_m, z_m, lean), 1'000'000'000 + i * 100'000'000, vehicle_m, lean);
+  }
   return rig;
 }
 
@@ -62,6 +66,11 @@ TEST_CASE("A slope of 25 degrees has no hole within 10 m, up, down or sideways")
     REQUIRE(rig.column(8.25, 0.25).visibility != 0);
     for (const auto& at : rig.flagged(kNegative)) CHECK(std::max(std::abs(at[0]), std::abs(at[1])) > 10);
   }
+}
+
+TEST_CASE("After eight sweeps on the way up a slope of 25 degrees has no hole at all") {
+  for (const double up_rad : {0.0, 0.3, M_PI / 4})
+    CHECK(rig_on_slope(25 * M_PI / 180, up_rad, 8).flagged(kNegative) == Places{});
 }
 
 TEST_CASE("A slope of 15 degrees isn't steep, wherever on it the rings of a lidar lie") {
