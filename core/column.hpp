@@ -90,22 +90,54 @@ GVOM_HD inline std::int32_t next_solid_of_window(const FusedView& map, std::int3
   return z;
 }
 
-/// The voxel whose lowest return is a column's own (R9), or -1. It is remembered or not (R17).
+/// The voxel whose lowest return is a column's own (R9), or -1 and kNone_m. It is remembered or not (R17).
 struct LowestVoxel {
   std::int32_t z;
   bool remembered;
+  float lowest_m;
 };
 
+/// Ground that the window's rays only graze (R17): they were in its voxel, in no lower one, and not below
+/// what was hit there before. @param z the column's lowest solid voxel, or -1
+GVOM_HD inline LowestVoxel grazed_voxel(const FusedView& map, const ColumnParameters& p, std::int32_t x,
+                                        std::int32_t y, std::int32_t z) {
+  constexpr LowestVoxel kNothing{-1, false, kNone_m};
+  const std::size_t mask = map.column(x, y) * static_cast<std::size_t>(map.words);
+  const std::int32_t lowest_free = lowest_bit(map.free + mask, map.words);
+  if (lowest_free < 0 || (z >= 0 && lowest_free > z)) return kNothing;
+  if (has_bit(map.memory.remembered + mask, lowest_free)) return kNothing;
+  const std::size_t cell = map.cell(x, y, lowest_free);
+  const RememberedHits& hits = map.memory.hits[cell];
+  if (hits.bits == 0 || map.hits[cell] != 0) return kNothing;
+  if (!(map.lowest_ray_m[map.stacked_column(x, y)] >= hits.min_height_m)) return kNothing;
+  const auto now = static_cast<std::uint8_t>(beat_of(p.stamp_ns));
+  const VoxelRecord told = shown_voxel(hits, map.memory.passes[cell], now);
+  if (!is_occupied(told.hits, static_cast<std::uint32_t>(p.layers.min_hits))) return kNothing;
+  return {lowest_free, true, told.min_height_m};
+}
+
 /// What the window has counts before what is remembered below it, but for what hangs by its own rays (R17).
-GVOM_HD inline LowestVoxel lowest_voxel(const FusedView& map, std::int32_t x, std::int32_t y) {
-  const std::int32_t z = lowest_solid(map, x, y);
-  if (z < 0 || map.memory.remembered == nullptr) return {z, false};
-  if (!has_bit(map.memory.remembered + map.column(x, y) * static_cast<std::size_t>(map.words), z))
-    return {z, false};
+/// @param z the column's lowest solid voxel, which is remembered
+GVOM_HD inline LowestVoxel remembered_voxel(const FusedView& map, std::int32_t x, std::int32_t y,
+                                            std::int32_t z) {
+  const LowestVoxel own{z, true, map.min_height_m[map.cell(x, y, z)]};
   const std::int32_t seen = next_solid_of_window(map, x, y, z);
-  if (seen < 0) return {z, true};
-  const float below_m = map.min_height_m[map.cell(x, y, seen)] - map.lowest_ray_m[map.stacked_column(x, y)];
-  return seen != z + 1 && below_m > kHangs_m ? LowestVoxel{z, true} : LowestVoxel{seen, false};
+  if (seen < 0) return own;
+  const float seen_m = map.min_height_m[map.cell(x, y, seen)];
+  const bool hangs = seen_m - map.lowest_ray_m[map.stacked_column(x, y)] > kHangs_m;
+  return seen != z + 1 && hangs ? own : LowestVoxel{seen, false, seen_m};
+}
+
+GVOM_HD inline LowestVoxel lowest_voxel(const FusedView& map, const ColumnParameters& p, std::int32_t x,
+                                        std::int32_t y) {
+  const std::int32_t z = lowest_solid(map, x, y);
+  if (map.memory.remembered != nullptr) {
+    const LowestVoxel grazed = grazed_voxel(map, p, x, y, z);
+    if (grazed.z >= 0) return grazed;
+    const std::size_t mask = map.column(x, y) * static_cast<std::size_t>(map.words);
+    if (z >= 0 && has_bit(map.memory.remembered + mask, z)) return remembered_voxel(map, x, y, z);
+  }
+  return {z, false, z < 0 ? kNone_m : map.min_height_m[map.cell(x, y, z)]};
 }
 
 /// Whether rays went below voxel `z` of a column (R9): one left the column lower, and a voxel further down
@@ -169,7 +201,7 @@ GVOM_HD inline ColumnGround read_ground(const FusedView& map, const ColumnParame
   const std::size_t column = map.column(x, y);
   const std::int32_t lowest_free =
       lowest_bit(map.free + column * static_cast<std::size_t>(map.words), map.words);
-  const LowestVoxel lowest = lowest_voxel(map, x, y);
+  const LowestVoxel lowest = lowest_voxel(map, p, x, y);
   ColumnGround out{kUnknown, kUnknown, kNone_m, kNone_m, kNone_m, false, false, false};
   out.observed = lowest_free >= 0 || lowest.z >= 0;
   out.remembered = lowest.z >= 0 ? lowest.remembered : map.last_seen_ns[column] == kNeverSeen;
@@ -182,7 +214,7 @@ GVOM_HD inline ColumnGround read_ground(const FusedView& map, const ColumnParame
     out.assumed = out.ground_m != kNone_m;
     return out;
   }
-  out.lowest_m = map.min_height_m[map.cell(x, y, lowest.z)];
+  out.lowest_m = lowest.lowest_m;
   if (hangs(map, x, y, lowest.z, out.lowest_m, out.lowest_ray_m)) return out;
   const float below_m = out.lowest_m - out.lowest_ray_m;
   out.ground_m = below_m > kBlades_m && below_m <= kHangs_m ? out.lowest_ray_m : out.lowest_m;

@@ -28,6 +28,7 @@ inline constexpr std::int64_t kNeverSeen = INT64_MIN;
 struct MemoryView {
   const std::uint64_t* remembered;   ///< [column][word]: the voxel shows what is remembered.
   const RememberedHits* hits;        ///< [cell]
+  const RememberedPasses* passes;    ///< [cell]
   const std::uint8_t* column_beats;  ///< [column_in_stacks]: of the newest map that left.
   const float* lowest_ray_m;         ///< [column_in_stacks]: of maps that left, or +infinity.
 };

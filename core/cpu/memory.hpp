@@ -51,7 +51,7 @@ class Memory {
     return (bricks_[cell / kBrickCells].shown[cell % kBrickCells / 8] >> (cell % 8) & 1) != 0;
   }
   [[nodiscard]] MemoryView view(const std::uint64_t* remembered) const {
-    return {remembered, hits_.data(), column_beats_.data(), lowest_ray_m_.data()};
+    return {remembered, hits_.data(), passes_.data(), column_beats_.data(), lowest_ray_m_.data()};
   }
 
   void reset();

@@ -86,7 +86,7 @@ FusedView FusedMap::view() const {
           free_,
           last_seen_ns_,
           lowest_ray_m_,
-          {memory_.remembered, memory_.hits, memory_.column_beats, memory_.lowest_ray_m}};
+          {memory_.remembered, memory_.hits, memory_.passes, memory_.column_beats, memory_.lowest_ray_m}};
 }
 
 void FusedMap::clear() {

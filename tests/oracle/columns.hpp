@@ -55,9 +55,17 @@ class ColumnVoxels {
   }
   [[nodiscard]] bool solid(int z) const { return occupied(z) && !worn(z); }
 
+  /// A voxel that the window's rays graze, which was hit before (R17), or -1.
+  [[nodiscard]] int grazed(float window_ray_m) const {
+    const int z = lowest(&ColumnVoxels::free), ground = lowest(&ColumnVoxels::solid);
+    if (z < 0 || (ground >= 0 && ground < z) || at(z).remembered) return -1;
+    return at(z).told_hits >= least_hits_ && window_ray_m >= at(z).told_height_m ? z : -1;
+  }
+
   /// The lowest solid voxel that the rules go by (R17), or -1.
   /// @param window_ray_m the lowest ray of the window in the column
   [[nodiscard]] int ground(float window_ray_m) const {
+    if (grazed(window_ray_m) >= 0) return grazed(window_ray_m);
     const int z = lowest(&ColumnVoxels::solid);
     if (z < 0 || !at(z).remembered) return z;
     for (int seen = z + 1; seen < count(); ++seen) {

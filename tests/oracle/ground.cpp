@@ -36,8 +36,8 @@ float assumed_ground_m(const FusedColumns& map, int x, int y) {
 }
 
 // 2.
-bool hangs(const ColumnVoxels& column, int lowest, float lowest_ray_m) {
-  if (column.at(lowest).min_height_m - lowest_ray_m <= 0.3f) return false;
+bool hangs(const ColumnVoxels& column, int lowest, float lowest_m, float lowest_ray_m) {
+  if (lowest_m - lowest_ray_m <= 0.3f) return false;
   for (int z = 0; z < lowest; ++z)
     if (column.free(z) && column.at(z).passes >= column.at(lowest).hits) return true;
   return false;
@@ -53,10 +53,10 @@ void read_column(const FusedColumns& map, int x, int y, Ground& ground) {
     if (assumed_m < kUnknown_m) ground.assumed.set(x, y, YesNo::yes);
     return;
   }
-  const float lowest_m = column.at(lowest).min_height_m;
+  const float lowest_m = map.lowest_return_m(x, y);
   const float ray_m = map.lowest_ray_m.at(x, y);
   ground.lowest_m.set(x, y, lowest_m);
-  if (hangs(column, lowest, ray_m)) return;
+  if (hangs(column, lowest, lowest_m, ray_m)) return;
   const float over_ray_m = lowest_m - ray_m;
   ground.known_m.set(x, y, over_ray_m > 0.1f && over_ray_m <= 0.3f ? ray_m : lowest_m);
 }

@@ -19,8 +19,16 @@ struct FusedColumns {
   [[nodiscard]] ColumnVoxels column(int x, int y) const { return {config.layers, voxels, x, y}; }
   /// The column's lowest solid voxel (R17), or -1.
   [[nodiscard]] int ground(int x, int y) const { return column(x, y).ground(window_ray_m.at(x, y)); }
+  [[nodiscard]] bool grazes_ground(int x, int y) const {
+    return column(x, y).grazed(window_ray_m.at(x, y)) >= 0;
+  }
   [[nodiscard]] bool remembers_ground(int x, int y) const {
-    return ground(x, y) >= 0 && column(x, y).at(ground(x, y)).remembered;
+    return grazes_ground(x, y) || (ground(x, y) >= 0 && column(x, y).at(ground(x, y)).remembered);
+  }
+  /// Of the voxel `ground`.
+  [[nodiscard]] float lowest_return_m(int x, int y) const {
+    const Voxel& voxel = column(x, y).at(ground(x, y));
+    return grazes_ground(x, y) ? voxel.told_height_m : voxel.min_height_m;
   }
 };
 

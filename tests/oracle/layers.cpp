@@ -21,7 +21,7 @@ constexpr std::int64_t kBeat_ns = 1 << 29;  // of the memory
 void write_ground(const FusedColumns& map, const Ground& ground, bool of_window, int x, int y, Layers& out) {
   const std::size_t i = out.index(x, y);
   const ColumnVoxels column = map.column(x, y);
-  const bool solid = column.lowest(&ColumnVoxels::solid) >= 0;
+  const bool solid = map.ground(x, y) >= 0;
   const bool assumed = ground.assumed.at(x, y) == YesNo::yes;
   const bool known = ground.height_m.at(x, y) < INFINITY;
   const int free = column.lowest(&ColumnVoxels::free);

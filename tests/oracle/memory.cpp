@@ -71,7 +71,7 @@ void Memory::add_to(VoxelBox& voxels) const {
   std::map<Int3, Sum> sums;
   for (const Gone& gone : gone_)
     for (const WorldVoxel& one : gone.telling) {
-      if (too_old(gone.beat) || !voxels.holds(one.at) || voxels[one.at].observed()) continue;
+      if (too_old(gone.beat) || !voxels.holds(one.at) || voxels[one.at].hits > 0) continue;
       if (gone.step < bricks_.at({brick_of(one.at[0]), brick_of(one.at[1]), brick_of(one.at[2])})) continue;
       Sum& sum = sums[one.at];
       if (gone.beat < sum.beat) continue;
@@ -82,12 +82,15 @@ void Memory::add_to(VoxelBox& voxels) const {
     }
   for (const auto& [at, sum] : sums) {
     Voxel& voxel = voxels[at];
+    voxel.told_hits = static_cast<std::uint32_t>(std::min<std::uint64_t>(sum.hits, 4095));
+    voxel.told_height_m = sum.min_height_m;
+    voxel.beat = sum.beat;
+    if (voxel.observed()) continue;
     voxel.hits = static_cast<std::uint32_t>(std::min<std::uint64_t>(sum.hits, 4095));
     voxel.passes = static_cast<std::uint32_t>(std::min<std::uint64_t>(sum.passes_with_hits, 4095) +
                                               std::min<std::uint64_t>(sum.passes, 255));
     voxel.min_height_m = sum.min_height_m;
     voxel.remembered = true;
-    voxel.beat = sum.beat;
   }
 }
 

@@ -16,6 +16,8 @@ struct Voxel {
   float min_height_m = std::numeric_limits<float>::infinity();
   bool remembered = false;  ///< Not of the window (R17), but of a beat:
   std::int64_t beat = 0;
+  std::uint32_t told_hits = 0;  ///< Of maps that left; also where the window has passes.
+  float told_height_m = std::numeric_limits<float>::infinity();
 
   [[nodiscard]] bool observed() const { return hits > 0 || passes > 0; }
 };
