@@ -24,6 +24,7 @@ LidarGeometry rig_lidar() {
 MapperConfig half_metre_map() {
   MapperConfig config;
   config.map = {0.5, 0.5, 64, 64};
+  config.memory.max_age_s = 0;
   return config;
 }
 

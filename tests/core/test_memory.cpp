@@ -43,6 +43,21 @@ TEST_CASE("Ground that no lidar sees any more is as it was, and says how old it 
   CHECK(rig.column(0.25, 4.25).last_seen == 0);
 }
 
+TEST_CASE("Ground stays where rays only graze it, until one goes below it") {
+  Rig rig(remembering(20));
+  rig.see(kFloor, kBeat_ns);
+  // To 0.05 m at x = 8.25 m: through the ground's voxel before that, 0.09 m up where it leaves the column.
+  for (const std::int64_t later : {1, 2}) rig.see({{8.25, 0.25, 0.05}}, 3 * kBeat_ns + later);
+  CHECK(rig.voxel(7.75, 0.25, 0.25).hits == 0);
+  CHECK(rig.voxel(7.75, 0.25, 0.25).passes == 2);
+  CHECK(rig.column(7.75, 0.25).height == 0.05f);
+  CHECK(rig.column(7.75, 0.25).visibility == 4);
+  CHECK(rig.column(7.75, 0.25).last_seen == Approx(2 * static_cast<double>(kBeat_ns) * 1e-9));
+  rig.see({{8.25, 0.25, -0.6}}, 3 * kBeat_ns + 3);
+  CHECK(std::isnan(rig.column(7.75, 0.25).height));
+  CHECK(rig.column(7.75, 0.25).visibility == 1);
+}
+
 TEST_CASE("A column through which rays only passed is remembered as that") {
   Rig rig(remembering(20));
   rig.see({{8.25, 0.25, 1.25}, {8.25, 0.25, 0.75}}, kBeat_ns);
