@@ -43,9 +43,19 @@ struct ColumnObstacles {
   }
 };
 
+/// Whether an occupied voxel can be an obstacle (R17): what stood on ground that the window has would be seen
+/// too.
+/// @param remembered the column's ground is
+GVOM_HD inline bool can_stand(const FusedView& map, std::int32_t x, std::int32_t y, std::int32_t z,
+                              bool remembered) {
+  if (remembered || map.memory.remembered == nullptr) return true;
+  return !has_bit(map.memory.remembered + map.column(x, y) * static_cast<std::size_t>(map.words), z);
+}
+
 /// Heights of a column's voxels ascend, so the walk ends at the first one over `max_obstacle_height`.
+/// @param remembered the column's ground is
 GVOM_HD inline ColumnObstacles read_obstacles(const FusedView& map, const ColumnParameters& p, std::int32_t x,
-                                              std::int32_t y, float ground_m) {
+                                              std::int32_t y, float ground_m, bool remembered) {
   const std::uint64_t* occupied = map.occupied + map.column(x, y) * static_cast<std::size_t>(map.words);
   ColumnObstacles out{{}, INFINITY};
   for (std::int32_t z = lowest_bit(occupied, map.words); z >= 0; z = next_bit(occupied, map.words, z)) {
@@ -56,6 +66,7 @@ GVOM_HD inline ColumnObstacles read_obstacles(const FusedView& map, const Column
       break;
     }
     if (above_m < p.layers.min_obstacle_height_m - kLowObstacle_m) continue;
+    if (!can_stand(map, x, y, z, remembered)) continue;
     const std::uint32_t hits = map.hits[cell];
     out.sums.low_hits += hits;
     if (above_m < p.layers.min_obstacle_height_m) continue;
@@ -113,11 +124,12 @@ GVOM_HD inline float height_of_layer_m(const FusedView& map, std::int32_t x, std
 
 /// Whether the stack over the column's first obstacle voxel reaches `max_obstacle_height`, less a voxel.
 GVOM_HD inline bool is_tall(const FusedView& map, const ColumnParameters& p, std::int32_t x, std::int32_t y,
-                            float ground_m) {
+                            float ground_m, bool remembered) {
   const std::uint64_t* occupied = map.occupied + map.column(x, y) * static_cast<std::size_t>(map.words);
   const auto ground = static_cast<double>(ground_m);
   std::int32_t z = lowest_bit(occupied, map.words);
-  while (static_cast<double>(map.min_height_m[map.cell(x, y, z)]) - ground < p.layers.min_obstacle_height_m)
+  while (static_cast<double>(map.min_height_m[map.cell(x, y, z)]) - ground < p.layers.min_obstacle_height_m ||
+         !can_stand(map, x, y, z, remembered))
     z = next_bit(occupied, map.words, z);
   const std::int32_t top = top_of_stack(FilledLayers(map, x, y), z);
   const auto top_m = static_cast<double>(height_of_layer_m(map, x, y, top));
@@ -207,7 +219,7 @@ GVOM_HD inline std::uint8_t obstacle_flags(const ShadowRays& behind, const Colum
   const double spare_rays = static_cast<double>(around.rays) - around.voxels;
   if (around.hits < kLeastHits || spare_hits < kLeastDensity * spare_rays) return kSoft;
   const bool dense = spare_rays > 0 && spare_hits >= p.layers.density_threshold * spare_rays;
-  return dense || is_tall(behind.map, p, x, y, ground_m) ? kHard : kSoft;
+  return dense || is_tall(behind.map, p, x, y, ground_m, behind.remembered) ? kHard : kSoft;
 }
 
 }  // namespace gvom

@@ -36,7 +36,8 @@ void ObstacleFinder::read_columns(const FusedView& map, const ColumnParameters& 
       low_[at] = 0;
       out.obstacle_density[i] = out.clearance[i] = kUnknown;
       if (std::isnan(out.height[i])) continue;
-      const ColumnObstacles column = read_obstacles(map, p, x, y, out.height[i]);
+      const ColumnObstacles column =
+          read_obstacles(map, p, x, y, out.height[i], is_remembered(out.visibility[i]));
       sums_[at] = column.sums;
       low_[at] = column.sums.low_hits > 0 ? 1 : 0;
       out.obstacle_density[i] = column.density();

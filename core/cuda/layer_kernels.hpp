@@ -140,7 +140,9 @@ struct WriteHeights {
     columns.plane_m[at] = known && ground_m != kNone_m ? height_m : kUnknown;
     if (hangs && !known) out.visibility[i] = without_height(out.visibility[i]);
     ColumnObstacles over{};
-    if (known) over = read_obstacles(tick->map, tick->parameters, columns.x(i), columns.y(i), height_m);
+    if (known)
+      over = read_obstacles(tick->map, tick->parameters, columns.x(i), columns.y(i), height_m,
+                            is_remembered(out.visibility[i]));
     columns.obstacles[at] = over.sums;
     out.obstacle_density[i] = known ? over.density() : kUnknown;
     out.clearance[i] = known ? over.clearance_m : kUnknown;

@@ -15,7 +15,7 @@ namespace gvom::test {
 
 using Points = std::vector<Eigen::Vector3d>;
 
-/// 64 x 64 x 64 voxels of half a metre: numbers that one can compute in one's head.
+/// 64 x 64 x 64 voxels of half a metre, the window alone: numbers that one can compute in one's head.
 MapperConfig half_metre_map();
 
 /// All layers of one column.

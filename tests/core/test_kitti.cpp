@@ -70,7 +70,7 @@ TEST_CASE("Three sweeps of a street give the oracle's bits") {
   for (const StampedPose& pose : poses) REQUIRE(odometry.add(pose) == OdometryBuffer::Add::added);
   SweepMapper mapper(config, roof_lidar(), kMaxReturns);
   MapFuser fuser(config);
-  oracle::Fusion expected(config.window);
+  oracle::Fusion expected(config.window, config.memory);
   BrickMapStorage storage[kSweeps];
   for (int i = 0; i < kSweeps; ++i) {
     CAPTURE(i);

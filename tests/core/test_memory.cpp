@@ -106,6 +106,19 @@ TEST_CASE("A walker does not come back where rays have passed since") {
   CHECK(rig.column(5.25, 0.25).flags == 0);
 }
 
+TEST_CASE("What stood on ground that is seen is gone, though no ray passes through it") {
+  const Points head{{5.25, 0.25, 1.25}, {5.25, 0.25, 1.35}};
+  Rig rig(remembering(20));
+  rig.see(kFloor + head, kBeat_ns);
+  look_elsewhere(rig, 2 * kBeat_ns);
+  CHECK(rig.column(5.25, 0.25).flags == kSoft);  // nothing is seen there
+  rig.see(kFloor, 3 * kBeat_ns);
+  rig.see(kFloor, 4 * kBeat_ns);
+  CHECK(rig.voxel(5.25, 0.25, 1.25).hits == 2);
+  CHECK(rig.column(5.25, 0.25).flags == 0);
+  CHECK(rig.column(5.25, 0.25).obstacle_density == 0);
+}
+
 TEST_CASE("A ray that was somewhere in the lowest voxel seen takes no ground away") {
   Rig rig(remembering(20));
   rig.see({{5.25, 0.25, 0.05}}, kBeat_ns);

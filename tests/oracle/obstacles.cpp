@@ -49,6 +49,11 @@ class Obstacles {
     return double{map_.column(x, y).at(z).min_height_m} - double{ground_.height_m.at(x, y)};
   }
 
+  // R17, 6: remembered, over ground that the window has.
+  [[nodiscard]] bool is_past(int x, int y, int z) const {
+    return map_.column(x, y).at(z).remembered && !map_.remembers_ground(x, y);
+  }
+
   [[nodiscard]] Sums sums_of(int x, int y) const {
     Sums sums;
     if (!has_height(x, y)) return sums;
@@ -57,6 +62,7 @@ class Obstacles {
       if (!column.occupied(z)) continue;
       const double over_m = over_ground_m(x, y, z);
       if (over_m > layers_.max_obstacle_height_m) continue;
+      if (is_past(x, y, z)) continue;
       if (over_m >= layers_.min_obstacle_height_m - 0.1) sums.low_hits += column.at(z).hits;
       if (over_m < layers_.min_obstacle_height_m) continue;
       sums.hits += column.at(z).hits;
@@ -135,7 +141,8 @@ class Obstacles {
   [[nodiscard]] bool is_tall(int x, int y) const {
     const ColumnVoxels column = map_.column(x, y);
     int z = 0;
-    while (!column.occupied(z) || over_ground_m(x, y, z) < layers_.min_obstacle_height_m) ++z;
+    while (!column.occupied(z) || over_ground_m(x, y, z) < layers_.min_obstacle_height_m || is_past(x, y, z))
+      ++z;
     double top_m = layer_m(x, y, z);
     for (int empty = 0; empty <= 1;) {
       const double next_m = layer_m(x, y, ++z);
