@@ -46,7 +46,7 @@ GVOM_HD inline std::uint32_t saturated(std::uint64_t sum, std::uint32_t most) {
 
 /// The records of a voxel in the newest beat that has one.
 struct RememberedHits {
-  float min_height_m;
+  float min_height_m;  ///< Of something.
   std::uint32_t bits;  ///< Passes, hits and the beat, from the top: 12, 12 and 8 bits. 0: nothing.
 
   static constexpr std::uint32_t kMost = 0xFFF;
@@ -61,8 +61,8 @@ inline constexpr RememberedHits kNoHits = {kNoHeight_m, 0};
 /// Adds a record of a map that left. @param beat its map's, @param now that of the newest stamp
 GVOM_HD inline RememberedHits with_record(RememberedHits cell, const VoxelRecord& record, std::uint8_t beat,
                                           std::uint8_t now) {
-  if (cell.bits != 0 && cell.beat() != beat) {
-    if (beats_between(cell.beat(), now) < beats_between(beat, now)) return cell;
+  if (cell.bits == 0 || cell.beat() != beat) {
+    if (cell.bits != 0 && beats_between(cell.beat(), now) < beats_between(beat, now)) return cell;
     cell = kNoHits;
   }
   const std::uint32_t hits = saturated(std::uint64_t{cell.hits()} + record.hits, RememberedHits::kMost);

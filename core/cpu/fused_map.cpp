@@ -201,7 +201,7 @@ void FusedMap::restore_minima(const Int3& brick, std::uint32_t slot) {
   stale_.clear();
 }
 
-FusedMap::VoxelBits FusedMap::read_bits(std::uint32_t slot) const {
+VoxelBits FusedMap::read_bits(std::uint32_t slot) const {
   const std::size_t begin = std::size_t{slot} * kBrickCells;
   const bool shows = memory_.on() && memory_.shows_any(slot);
   VoxelBits bits{};
@@ -219,7 +219,7 @@ void FusedMap::rebuild_masks(const Int3& brick, std::uint32_t slot) {
   VoxelBits bits = read_bits(slot);
   const CellBits* remembered = nullptr;
   if (memory_.on()) {
-    if (memory_.show(slot, bits.free, bits.occupied, cells_of(slot))) bits = read_bits(slot);
+    memory_.show(slot, static_cast<std::uint32_t>(min_hits_), cells_of(slot), bits);
     remembered = &memory_.shown(slot);
     write_mask(brick, *remembered, remembered_);
   }

@@ -8,6 +8,7 @@
 
 #include "core/cell.hpp"
 #include "core/config.hpp"
+#include "core/cpu/huge_pages.hpp"
 #include "core/cpu/memory.hpp"
 #include "core/format/brick_map.hpp"
 #include "core/fused_view.hpp"
@@ -51,12 +52,6 @@ class FusedMap {
     float least_m;       // the minimum that left: none can be lower
   };
 
-  // Of the voxels of a brick.
-  struct VoxelBits {
-    CellBits occupied;
-    CellBits free;
-  };
-
   void update_brick_column(std::int32_t bx, std::int32_t by, const Change& change);
   bool update_brick(const Int3& brick, std::uint32_t slot, const Change& change);
   void remember_brick(const Int3& brick, std::uint32_t slot, const Change& change);
@@ -90,9 +85,9 @@ class FusedMap {
   Grid grid_;
   std::int32_t min_hits_;
   std::int32_t words_;
-  std::vector<std::uint32_t> hits_;
-  std::vector<std::uint32_t> passes_;
-  std::vector<float> min_height_m_;
+  VoxelArray<std::uint32_t> hits_;
+  VoxelArray<std::uint32_t> passes_;
+  VoxelArray<float> min_height_m_;
   std::vector<std::uint8_t> live_;        // per brick: the window observes a voxel
   std::vector<std::uint16_t> hit_cells_;  // per brick: voxels with hits in the window
   std::vector<std::uint64_t> occupied_;

@@ -26,7 +26,6 @@ GVOM_CLONES std::int32_t forget_hits(std::uint8_t now, std::int32_t most, Rememb
     const std::int32_t age = beats_between(cells[i].beat(), now);
     const bool keeps = (static_cast<int>(cells[i].bits != 0) & static_cast<int>(age <= most)) != 0;
     cells[i].bits = keeps ? cells[i].bits : 0;
-    cells[i].min_height_m = keeps ? cells[i].min_height_m : kNoHeight_m;
     const std::int32_t kept_age = keeps ? age : -1;
     oldest = kept_age > oldest ? kept_age : oldest;
   }
@@ -232,24 +231,22 @@ void Memory::remember(std::uint32_t slot, std::size_t i, std::int32_t brick) {
   note_beat(bricks_[slot], left.beat);
 }
 
-bool Memory::show(std::uint32_t slot, const CellBits& free, const CellBits& occupied,
-                  const BrickCells& cells) {
+void Memory::show(std::uint32_t slot, std::uint32_t min_hits, const BrickCells& cells, VoxelBits& bits) {
   const std::size_t begin = std::size_t{slot} * kBrickCells;
   CellBits silent;
   for (std::size_t c = 0; c < silent.size(); ++c)
-    silent[c] = static_cast<std::uint8_t>(left_cells_[c] & ~(free[c] | occupied[c]));
+    silent[c] = static_cast<std::uint8_t>(left_cells_[c] & ~(bits.free[c] | bits.occupied[c]));
   left_cells_ = {};
-  bool any = false;
   for_each_cell(silent, [&](std::size_t cell) {
     const VoxelRecord voxel = shown_voxel(hits_[begin + cell], passes_[begin + cell], now());
     if ((voxel.hits | voxel.passes) == 0) return;
     cells.hits[cell] = voxel.hits;
     cells.passes[cell] = voxel.passes;
     cells.min_height_m[cell] = voxel.min_height_m;
-    bricks_[slot].shown[cell / 8] |= static_cast<std::uint8_t>(1U << (cell % 8));
-    any = true;
+    const auto bit = static_cast<std::uint8_t>(1U << (cell % 8));
+    bricks_[slot].shown[cell / 8] |= bit;
+    (is_occupied(voxel.hits, min_hits) ? bits.occupied : bits.free)[cell / 8] |= bit;
   });
-  return any;
 }
 
 void Memory::reset() {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/cpu/cell_bits.hpp"
+#include "core/cpu/huge_pages.hpp"
 #include "core/fused_view.hpp"
 #include "core/memory.hpp"
 #include "core/window.hpp"
@@ -17,6 +18,12 @@ struct BrickCells {
   std::uint32_t* hits;
   std::uint32_t* passes;
   float* min_height_m;
+};
+
+/// What its voxels are (R8).
+struct VoxelBits {
+  CellBits occupied;
+  CellBits free;
 };
 
 class Memory {
@@ -40,9 +47,9 @@ class Memory {
   void give_way(std::uint32_t slot, const std::int32_t* lookup, const BrickCells& cells);
   /// Remembers the brick of the map that left as the `i`th.
   void remember(std::uint32_t slot, std::size_t i, std::int32_t brick);
-  /// Shows what is remembered where a map that left had observed something and the window does not now. True:
-  /// something is shown that was not. @param free, occupied voxels that have hits or passes
-  bool show(std::uint32_t slot, const CellBits& free, const CellBits& occupied, const BrickCells& cells);
+  /// Shows what is remembered where a map that left had observed something and the window does not now, and
+  /// notes it in `bits`.
+  void show(std::uint32_t slot, std::uint32_t min_hits, const BrickCells& cells, VoxelBits& bits);
 
   /// Voxels that show what is remembered.
   [[nodiscard]] const CellBits& shown(std::uint32_t slot) const { return bricks_[slot].shown; }
@@ -91,8 +98,8 @@ class Memory {
   std::vector<Left> left_;
   CellBits left_cells_{};  // that maps which left had observed, of the brick in work
   std::vector<Brick> bricks_;
-  std::vector<RememberedHits> hits_;
-  std::vector<RememberedPasses> passes_;
+  VoxelArray<RememberedHits> hits_;
+  VoxelArray<RememberedPasses> passes_;
   std::vector<std::uint8_t> column_beats_;
   std::vector<float> spans_m_;       // kSpans times, column_in_stacks
   std::vector<float> lowest_ray_m_;  // the minimum of the spans
