@@ -189,7 +189,7 @@ struct JudgeColumns {
   }
 
   [[nodiscard]] __device__ std::uint8_t obstacles(std::int32_t i) const {
-    if (isnan(tick->out.height[i])) return 0;
+    if (std::isnan(tick->out.height[i])) return 0;
     const ColumnGrid& grid = columns.grid;
     const std::int32_t x = columns.x(i), y = columns.y(i);
     const ObstacleSums* own = columns.obstacles + grid.at(x, y);

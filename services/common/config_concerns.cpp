@@ -48,6 +48,7 @@ const std::vector<KeyConcern>& key_concerns() {
       {"map.size_z", kFusion | kIngests | kBroker},
       {"window", kFusion},
       {"window.buffer_size", kFusion | kBroker},
+      {"memory", kFusion},
       {"vehicle", kFusion | kIngests},
       {"layers", kFusion},
       {"cost", kFusion},
