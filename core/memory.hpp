@@ -22,9 +22,10 @@ GVOM_HD inline std::int64_t beat_of(std::int64_t stamp_ns) {
   return stamp_ns >> kBeatBits;
 }
 
-/// How long something is remembered, in whole beats of the memory; 0: nothing is.
+/// How long something is remembered, in whole beats of the memory, at most `kMostBeats`; 0: nothing is.
 inline std::int32_t beats_remembered(double max_age_s) {
-  return static_cast<std::int32_t>(std::ceil(max_age_s * 1e9 / (std::int64_t{1} << kBeatBits)));
+  const double beats = std::ceil(max_age_s * 1e9 / (std::int64_t{1} << kBeatBits));
+  return beats < kMostBeats ? static_cast<std::int32_t>(beats) : kMostBeats;
 }
 
 /// Beats from one to another that is not older. Both are known by their last eight bits.

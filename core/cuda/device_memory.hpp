@@ -13,7 +13,7 @@ namespace gvom::cuda {
 struct DeviceMemory {
   RememberedHits* hits;        ///< As the voxels of DenseBricks.
   RememberedPasses* passes;    ///< Likewise.
-  std::uint16_t* oldest;       ///< For each half of a brick: no voxel is of an older beat; see `with_beat`.
+  std::uint16_t* oldest;       ///< For each half of a brick: no voxel is of an older beat; see `kept`.
   std::uint64_t* remembered;   ///< The mask of MemoryView.
   std::uint8_t* column_beats;  ///< Of MemoryView.
   float* lowest_ray_m;         ///< Likewise: the minimum of the spans.

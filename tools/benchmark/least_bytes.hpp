@@ -28,8 +28,7 @@ inline constexpr const char* kLeastBytesWords =
     "these, the last-seen stamp is read and written. Of the bricks that enter as the grid moves, 12 bytes a "
     "voxel are written, and what the window's other maps have there is read, but for their records.\n"
     "- layers: of each column, both masks, the stamp and the lowest ray are read, and hits, passes and "
-    "minimum "
-    "of its ground; each layer is written once.\n"
+    "minimum of its ground; each layer is written once.\n"
     "- download: the layers.\n";
 
 /// Of the tick whose map `window` took last, the newest, and whose layers are `layers`.
