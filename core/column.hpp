@@ -191,8 +191,8 @@ GVOM_HD inline float lowest_ray_m(const FusedView& map, const ColumnParameters& 
   const float seen_m = map.lowest_ray_m[column];
   if (map.memory.lowest_ray_m == nullptr || (lowest.z >= 0 && !lowest.remembered)) return seen_m;
   const std::int32_t dx = x - p.vehicle_column_x, dy = y - p.vehicle_column_y;
-  const double range_m = p.resolution_xy_m * std::sqrt(static_cast<double>(dx * dx + dy * dy));
-  if (lowest.z < 0 && seen_m != kNone_m && range_m > kLooksOver_m) return seen_m;
+  const double square_m2 = p.resolution_xy_m * p.resolution_xy_m * (dx * dx + dy * dy);
+  if (lowest.z < 0 && seen_m != kNone_m && square_m2 > kLooksOver_m * kLooksOver_m) return seen_m;
   return lower(seen_m, map.memory.lowest_ray_m[column]);
 }
 

@@ -43,13 +43,12 @@ struct ColumnObstacles {
   }
 };
 
-/// Whether an occupied voxel can be an obstacle (R17): what stood on ground that the window has would be seen
-/// too.
-/// @param remembered the column's ground is
-GVOM_HD inline bool can_stand(const FusedView& map, std::int32_t x, std::int32_t y, std::int32_t z,
-                              bool remembered) {
-  if (remembered || map.memory.remembered == nullptr) return true;
-  return !has_bit(map.memory.remembered + map.column(x, y) * static_cast<std::size_t>(map.words), z);
+/// The mask of a column's voxels that are no obstacles though occupied (R17), or nullptr: what stood on
+/// ground that the window has would be seen too. @param remembered the column's ground is
+GVOM_HD inline const std::uint64_t* past_obstacles(const FusedView& map, std::int32_t x, std::int32_t y,
+                                                   bool remembered) {
+  if (remembered || map.memory.remembered == nullptr) return nullptr;
+  return map.memory.remembered + map.column(x, y) * static_cast<std::size_t>(map.words);
 }
 
 /// Heights of a column's voxels ascend, so the walk ends at the first one over `max_obstacle_height`.
@@ -57,6 +56,7 @@ GVOM_HD inline bool can_stand(const FusedView& map, std::int32_t x, std::int32_t
 GVOM_HD inline ColumnObstacles read_obstacles(const FusedView& map, const ColumnParameters& p, std::int32_t x,
                                               std::int32_t y, float ground_m, bool remembered) {
   const std::uint64_t* occupied = map.occupied + map.column(x, y) * static_cast<std::size_t>(map.words);
+  const std::uint64_t* past = past_obstacles(map, x, y, remembered);
   ColumnObstacles out{{}, INFINITY};
   for (std::int32_t z = lowest_bit(occupied, map.words); z >= 0; z = next_bit(occupied, map.words, z)) {
     const std::size_t cell = map.cell(x, y, z);
@@ -66,7 +66,7 @@ GVOM_HD inline ColumnObstacles read_obstacles(const FusedView& map, const Column
       break;
     }
     if (above_m < p.layers.min_obstacle_height_m - kLowObstacle_m) continue;
-    if (!can_stand(map, x, y, z, remembered)) continue;
+    if (past != nullptr && has_bit(past, z)) continue;
     const std::uint32_t hits = map.hits[cell];
     out.sums.low_hits += hits;
     if (above_m < p.layers.min_obstacle_height_m) continue;
@@ -126,10 +126,11 @@ GVOM_HD inline float height_of_layer_m(const FusedView& map, std::int32_t x, std
 GVOM_HD inline bool is_tall(const FusedView& map, const ColumnParameters& p, std::int32_t x, std::int32_t y,
                             float ground_m, bool remembered) {
   const std::uint64_t* occupied = map.occupied + map.column(x, y) * static_cast<std::size_t>(map.words);
+  const std::uint64_t* past = past_obstacles(map, x, y, remembered);
   const auto ground = static_cast<double>(ground_m);
   std::int32_t z = lowest_bit(occupied, map.words);
   while (static_cast<double>(map.min_height_m[map.cell(x, y, z)]) - ground < p.layers.min_obstacle_height_m ||
-         !can_stand(map, x, y, z, remembered))
+         (past != nullptr && has_bit(past, z)))
     z = next_bit(occupied, map.words, z);
   const std::int32_t top = top_of_stack(FilledLayers(map, x, y), z);
   const auto top_m = static_cast<double>(height_of_layer_m(map, x, y, top));

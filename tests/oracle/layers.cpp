@@ -87,9 +87,9 @@ void find_rays(const Fusion& fusion, const FusedColumns& map, Columns<float>& wi
   const ColumnAt vehicle = vehicle_column(map.newest);
   each_column(all_m.n(), [&](int x, int y) { window_m.set(x, y, *of_window.at(x, y)); });
   each_column(all_m.n(), [&](int x, int y) {
-    const double columns =
-        std::sqrt(double((x - vehicle.x) * (x - vehicle.x) + (y - vehicle.y) * (y - vehicle.y)));
-    const bool far = map.config.map.resolution_xy_m * columns > 8;
+    const double edge_m = map.config.map.resolution_xy_m;
+    const int dx = x - vehicle.x, dy = y - vehicle.y;
+    const bool far = edge_m * edge_m * (dx * dx + dy * dy) > 64;
     const bool seen_through = map.ground(x, y) < 0 && window_m.at(x, y) < INFINITY;
     const bool seen_ground = map.ground(x, y) >= 0 && !map.remembers_ground(x, y);
     const bool alone = seen_ground || (seen_through && far);
