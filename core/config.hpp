@@ -24,7 +24,7 @@ struct WindowConfig {
 
 /// What is remembered of maps that left the window (R17).
 struct MemoryConfig {
-  double max_age_s = 0;  ///< Nothing is remembered for longer; 0: nothing at all; 0 .. 60.
+  double max_age_s = 5;  ///< Nothing is remembered for longer; 0: nothing at all; 0 .. 60.
 };
 
 /// An axis-aligned box in base_link, metres.

@@ -7,6 +7,7 @@
 #include "core/column.hpp"
 #include "core/column_bits.hpp"
 #include "core/column_grid.hpp"
+#include "core/left.hpp"
 #include "core/negative.hpp"
 
 namespace gvom {
@@ -35,6 +36,7 @@ struct ObstacleSums {
 /// What stands and hangs in a column above its ground.
 struct ColumnObstacles {
   ObstacleSums sums;
+  std::uint8_t lowest;  ///< The lowest obstacle voxel, if there is one.
   float clearance_m;
 
   [[nodiscard]] GVOM_HD float density() const {
@@ -52,12 +54,14 @@ GVOM_HD inline const std::uint64_t* past_obstacles(const FusedView& map, std::in
 }
 
 /// Heights of a column's voxels ascend, so the walk ends at the first one over `max_obstacle_height`.
-/// @param remembered the column's ground is
-GVOM_HD inline ColumnObstacles read_obstacles(const FusedView& map, const ColumnParameters& p, std::int32_t x,
-                                              std::int32_t y, float ground_m, bool remembered) {
+/// What left its voxel is none. @param maps the window's, @param remembered the column's ground is
+template <class Maps>
+GVOM_HD ColumnObstacles read_obstacles(const FusedView& map, const Maps& maps, const ColumnParameters& p,
+                                       std::int32_t x, std::int32_t y, float ground_m, bool remembered) {
   const std::uint64_t* occupied = map.occupied + map.column(x, y) * static_cast<std::size_t>(map.words);
   const std::uint64_t* past = past_obstacles(map, x, y, remembered);
-  ColumnObstacles out{{}, INFINITY};
+  ColumnObstacles out{{}, 0, INFINITY};
+  std::int32_t left = -2;  // the last voxel that something left
   for (std::int32_t z = lowest_bit(occupied, map.words); z >= 0; z = next_bit(occupied, map.words, z)) {
     const std::size_t cell = map.cell(x, y, z);
     const double above_m = static_cast<double>(map.min_height_m[cell]) - static_cast<double>(ground_m);
@@ -67,10 +71,17 @@ GVOM_HD inline ColumnObstacles read_obstacles(const FusedView& map, const Column
     }
     if (above_m < p.layers.min_obstacle_height_m - kLowObstacle_m) continue;
     if (past != nullptr && has_bit(past, z)) continue;
-    const std::uint32_t hits = map.hits[cell];
+    const std::uint32_t hits = map.hits[cell], passes = map.passes[cell];
+    const Presence now = presence(maps, {p.origin[0] + x, p.origin[1] + y, p.origin[2] + z}, hits, passes);
+    if (now == Presence::left || (now == Presence::quiet && left == z - 1)) {
+      left = z;
+      if (above_m >= p.layers.min_obstacle_height_m) out.sums.rays += hits + passes;
+      continue;
+    }
     out.sums.low_hits += hits;
     if (above_m < p.layers.min_obstacle_height_m) continue;
-    out.sums.add({hits, hits + map.passes[cell], 1, 0});
+    if (out.sums.voxels == 0) out.lowest = static_cast<std::uint8_t>(z);
+    out.sums.add({hits, hits + passes, 1, 0});
   }
   return out;
 }
@@ -122,19 +133,12 @@ GVOM_HD inline float height_of_layer_m(const FusedView& map, std::int32_t x, std
   return highest_m;
 }
 
-/// Whether the stack over the column's first obstacle voxel reaches `max_obstacle_height`, less a voxel.
+/// Whether the stack over the column's lowest obstacle voxel reaches `max_obstacle_height`, less a voxel.
 GVOM_HD inline bool is_tall(const FusedView& map, const ColumnParameters& p, std::int32_t x, std::int32_t y,
-                            float ground_m, bool remembered) {
-  const std::uint64_t* occupied = map.occupied + map.column(x, y) * static_cast<std::size_t>(map.words);
-  const std::uint64_t* past = past_obstacles(map, x, y, remembered);
-  const auto ground = static_cast<double>(ground_m);
-  std::int32_t z = lowest_bit(occupied, map.words);
-  while (static_cast<double>(map.min_height_m[map.cell(x, y, z)]) - ground < p.layers.min_obstacle_height_m ||
-         (past != nullptr && has_bit(past, z)))
-    z = next_bit(occupied, map.words, z);
-  const std::int32_t top = top_of_stack(FilledLayers(map, x, y), z);
+                            float ground_m, std::int32_t lowest) {
+  const std::int32_t top = top_of_stack(FilledLayers(map, x, y), lowest);
   const auto top_m = static_cast<double>(height_of_layer_m(map, x, y, top));
-  return top_m - ground >= p.layers.max_obstacle_height_m - p.resolution_z_m;
+  return top_m - static_cast<double>(ground_m) >= p.layers.max_obstacle_height_m - p.resolution_z_m;
 }
 
 /// How low rays have been in a column that may cast a shadow and behind it: in the window for what the window
@@ -207,10 +211,11 @@ class Shadow {
 };
 
 /// Flags of a column with known ground (R11). @param own its own sums, @param around those of the 3 x 3
-/// columns
+/// columns, @param lowest its lowest obstacle voxel
 GVOM_HD inline std::uint8_t obstacle_flags(const ShadowRays& behind, const ColumnParameters& p,
                                            std::int32_t x, std::int32_t y, float ground_m,
-                                           const ObstacleSums& own, const ObstacleSums& around) {
+                                           const ObstacleSums& own, const ObstacleSums& around,
+                                           std::int32_t lowest) {
   if (around.low_hits >= kShadowHits) {
     const Shadow shadow(behind, p, x, y, ground_m);
     if ((own.low_hits > 0 && shadow.is_high()) || shadow.is_low()) return kHard;
@@ -220,7 +225,7 @@ GVOM_HD inline std::uint8_t obstacle_flags(const ShadowRays& behind, const Colum
   const double spare_rays = static_cast<double>(around.rays) - around.voxels;
   if (around.hits < kLeastHits || spare_hits < kLeastDensity * spare_rays) return kSoft;
   const bool dense = spare_rays > 0 && spare_hits >= p.layers.density_threshold * spare_rays;
-  return dense || is_tall(behind.map, p, x, y, ground_m, behind.remembered) ? kHard : kSoft;
+  return dense || is_tall(behind.map, p, x, y, ground_m, lowest) ? kHard : kSoft;
 }
 
 }  // namespace gvom

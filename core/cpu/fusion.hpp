@@ -13,7 +13,7 @@ class Fusion : public FusionBackend {
 
   DeviceExpected<AddResult> add(const WindowMap& map) override { return map_.add(map); }
   DeviceExpected<void> make_layers(const LayerArrays& out) override {
-    layer_maker_.make(map_.view(), newest_moment(window()), out);
+    layer_maker_.make(map_.view(), window(), out);
     return {};
   }
   DeviceExpected<BrickMapShape> count_voxels() override { return map_.shape(); }

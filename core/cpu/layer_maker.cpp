@@ -25,10 +25,10 @@ LayerMaker::LayerMaker(const MapperConfig& config)
       planes_(n_xy_, config.layers.plane_size),
       negatives_(n_xy_) {}
 
-void LayerMaker::make(const FusedView& map, const LayerMoment& moment, const LayerArrays& out) {
-  const ColumnParameters p = column_parameters(config_, moment);
+void LayerMaker::make(const FusedView& map, const Window& window, const LayerArrays& out) {
+  const ColumnParameters p = column_parameters(config_, newest_moment(window));
   ground_.find(map, p, out);
-  obstacles_.find(map, p, ground_.view(), out);
+  obstacles_.find(map, WindowMaps(window), p, ground_.view(), out);
   planes_.fit(p, ground_.view(), out);
   negatives_.find(p, ground_.view(), out);
   add_up_cost(n_xy_ * n_xy_, p, out);

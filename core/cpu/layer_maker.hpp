@@ -16,8 +16,8 @@ class LayerMaker {
  public:
   explicit LayerMaker(const MapperConfig& config);
 
-  /// Writes every value of every layer; allocates nothing.
-  void make(const FusedView& map, const LayerMoment& moment, const LayerArrays& out);
+  /// Writes every value of every layer; allocates nothing. @param window of which `map` is the sum
+  void make(const FusedView& map, const Window& window, const LayerArrays& out);
 
  private:
   MapperConfig config_;

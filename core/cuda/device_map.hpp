@@ -27,6 +27,10 @@ struct DeviceMap {
     const std::int32_t slot = grid.slot_of_brick(world_brick);
     return slot < 0 ? -1 : directory[slot];
   }
+  /// The lookup values of a brick's voxels.
+  [[nodiscard]] GVOM_HD const std::int32_t* lookup_of(std::int32_t brick) const {
+    return lookup + static_cast<std::size_t>(brick) * kBrickCells;
+  }
   /// Of the 64 columns of a stack of bricks (R5a), or nullptr where the map does not reach.
   [[nodiscard]] GVOM_HD const float* lowest_rays_of(std::int32_t bx, std::int32_t by) const {
     const std::int32_t stack = grid.stack_of_brick(bx, by);

@@ -48,6 +48,17 @@ struct FuseTick {
 };
 static_assert(sizeof(FuseTick) % alignof(DeviceMap) == 0);
 
+/// The window's maps as `presence` reads them (R11).
+struct WindowMaps {
+  const FuseTick* tick;
+
+  [[nodiscard]] __device__ std::int32_t count() const { return tick->window_maps; }
+  [[nodiscard]] __device__ std::int64_t stamp_ns(std::int32_t i) const { return tick->map(i).stamp_ns; }
+  [[nodiscard]] __device__ std::int32_t lookup(std::int32_t i, const Int3& world) const {
+    return lookup_at(tick->map(i), world);
+  }
+};
+
 /// A brick in 32 maps, a lane for each.
 class Holders {
  public:
@@ -57,7 +68,7 @@ class Holders {
       if (lane >= count) return;
       const DeviceMap& map = tick.map(first + lane);
       const std::int32_t brick = map.brick_at(world_brick);
-      if (brick >= 0) lookup_[lane] = map.lookup + static_cast<std::size_t>(brick) * kBrickCells;
+      if (brick >= 0) lookup_[lane] = map.lookup_of(brick);
       records_[lane] = map.records;
     });
     holders_ = vote([&](std::int32_t lane) { return lookup_[lane] != nullptr; });

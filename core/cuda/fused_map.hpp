@@ -29,6 +29,8 @@ class FusedMap {
   [[nodiscard]] const DenseBricks& bricks() const { return bricks_; }
   /// Pointers of the device.
   [[nodiscard]] FusedView view() const;
+  /// Those that it is the sum of.
+  [[nodiscard]] WindowMaps window() const { return {reinterpret_cast<const FuseTick*>(tick_)}; }
 
  private:
   std::size_t write_tick(const Window& window, std::uint32_t added_place, const MapRing& ring,

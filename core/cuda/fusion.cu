@@ -72,7 +72,7 @@ DeviceExpected<AddResult> Fusion::add(const WindowMap& map) {
 DeviceExpected<void> Fusion::make_layers(const LayerArrays& out) {
   const std::uint64_t launches = device_->launches();
   device_->mark(kMake);
-  layer_maker_.make(map_.view(), newest_moment(window_), out);
+  layer_maker_.make(map_.view(), map_.window(), newest_moment(window_), out);
   device_->mark(kDeliver);
   layer_maker_.deliver(out);
   device_->mark(kDelivered);

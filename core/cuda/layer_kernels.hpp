@@ -8,6 +8,7 @@
 
 #include "core/column.hpp"
 #include "core/column_grid.hpp"
+#include "core/cuda/fuse_tick.hpp"
 #include "core/ground.hpp"
 #include "core/negative.hpp"
 #include "core/obstacle.hpp"
@@ -18,6 +19,7 @@ namespace gvom::cuda {
 /// What the layers of one tick are made of and where they go; pointers of the device.
 struct LayerTick {
   FusedView map;
+  WindowMaps window;  ///< Of which `map` is the sum.
   ColumnParameters parameters;
   HoleParameters holes;
   LayerArrays out;
@@ -36,6 +38,7 @@ struct ColumnArrays {
   std::uint8_t* is_rim;
   std::uint8_t* shows_hole;  ///< 1 or 0.
   ObstacleSums* obstacles;
+  std::uint8_t* lowest_obstacle;  ///< The lowest obstacle voxel.
 
   /// Of the column `i` of a layer.
   [[nodiscard]] __device__ std::int32_t x(std::int32_t i) const { return i % grid.n_xy; }
@@ -141,9 +144,10 @@ struct WriteHeights {
     if (hangs && !known) out.visibility[i] = without_height(out.visibility[i]);
     ColumnObstacles over{};
     if (known)
-      over = read_obstacles(tick->map, tick->parameters, columns.x(i), columns.y(i), height_m,
+      over = read_obstacles(tick->map, tick->window, tick->parameters, columns.x(i), columns.y(i), height_m,
                             is_remembered(out.visibility[i]));
     columns.obstacles[at] = over.sums;
+    columns.lowest_obstacle[at] = over.lowest;
     out.obstacle_density[i] = known ? over.density() : kUnknown;
     out.clearance[i] = known ? over.clearance_m : kUnknown;
   }
@@ -191,13 +195,14 @@ struct JudgeColumns {
   [[nodiscard]] __device__ std::uint8_t obstacles(std::int32_t i) const {
     if (std::isnan(tick->out.height[i])) return 0;
     const ColumnGrid& grid = columns.grid;
-    const std::int32_t x = columns.x(i), y = columns.y(i);
-    const ObstacleSums* own = columns.obstacles + grid.at(x, y);
+    const std::int32_t x = columns.x(i), y = columns.y(i), at = grid.at(x, y);
+    const ObstacleSums* own = columns.obstacles + at;
     ObstacleSums around{};
     for (std::int32_t dy = -1; dy <= 1; ++dy)
       for (std::int32_t dx = -1; dx <= 1; ++dx) around.add(own[dy * grid.pitch() + dx]);
     const ShadowRays rays{tick->map, grid, columns.lowest_ray_m, is_remembered(tick->out.visibility[i])};
-    return obstacle_flags(rays, tick->parameters, x, y, tick->out.height[i], *own, around);
+    return obstacle_flags(rays, tick->parameters, x, y, tick->out.height[i], *own, around,
+                          columns.lowest_obstacle[at]);
   }
 
   [[nodiscard]] __device__ Plane fit(std::int32_t at) const {

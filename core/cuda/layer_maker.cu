@@ -51,7 +51,8 @@ ColumnArrays column_arrays(Device& device, const ColumnGrid& grid) {
           flags(),
           flags(),
           flags(),
-          static_cast<ObstacleSums*>(zeros(size * sizeof(ObstacleSums)))};
+          static_cast<ObstacleSums*>(zeros(size * sizeof(ObstacleSums))),
+          flags()};
 }
 
 AllowedRises allowed_rises(double resolution_m) {
@@ -93,11 +94,12 @@ std::size_t LayerMaker::columns() const {
   return static_cast<std::size_t>(config_.map.size_xy) * static_cast<std::size_t>(config_.map.size_xy);
 }
 
-void LayerMaker::make(const FusedView& view, const LayerMoment& moment, const LayerArrays& out) {
+void LayerMaker::make(const FusedView& view, const WindowMaps& window, const LayerMoment& moment,
+                      const LayerArrays& out) {
   if (device_.failed()) return;
   if (out.bytes_in_one > most_bytes_) return device_.fail("layers are larger than there is room for");
   const ColumnParameters parameters = column_parameters(config_, moment);
-  new (staged_) LayerTick{view, parameters, hole_parameters(parameters), on_device(out)};
+  new (staged_) LayerTick{view, window, parameters, hole_parameters(parameters), on_device(out)};
   device_.upload(tick_, staged_, sizeof *staged_);
   device_.play(make_);
 }

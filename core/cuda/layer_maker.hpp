@@ -15,8 +15,10 @@ class LayerMaker {
  public:
   LayerMaker(Device& device, const MapperConfig& config);
 
-  /// Computes all layers; `deliver` sends them to the same arrays. `view` has the device's pointers.
-  void make(const FusedView& view, const LayerMoment& moment, const LayerArrays& out);
+  /// Computes all layers; `deliver` sends them to the same arrays. `view` has the device's pointers; it is
+  /// the sum of `window`.
+  void make(const FusedView& view, const WindowMaps& window, const LayerMoment& moment,
+            const LayerArrays& out);
   void deliver(const LayerArrays& out);
 
   /// Bytes of the last delivery.

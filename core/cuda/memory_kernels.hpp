@@ -129,7 +129,7 @@ struct UpdateMemory {
     if (index < 0) return;
     const std::uint64_t lower =
         columns_in_bricks(map, brick[0], brick[1], map.grid.origin[2] / kBrickEdge, brick[2]);
-    const std::int32_t* const lookup = map.lookup + static_cast<std::size_t>(index) * kBrickCells;
+    const std::int32_t* const lookup = map.lookup_of(index);
     for_each_lane([&](std::int32_t lane) {
       const MapBrick of_map{lookup, map.records};
       columns[lane].add(map, of_map.column(first + lane), (lower >> (first + lane) & 1) != 0, tick->memory);

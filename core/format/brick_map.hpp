@@ -77,6 +77,14 @@ constexpr BrickMapLayout brick_map_layout(std::size_t header_bytes, const BrickM
   return layout;
 }
 
+/// The lookup value of a world voxel; that of an unobserved one where the grid does not reach.
+template <class Map>
+GVOM_HD std::int32_t lookup_at(const Map& map, const Int3& world) {
+  const std::int32_t brick = map.brick_at(brick_of(world));
+  if (brick < 0) return free_lookup(0);
+  return map.lookup_of(brick)[cell_in_brick(world[0], world[1], world[2])];
+}
+
 /// A map to be read.
 struct BrickMapView {
   Grid grid;
@@ -106,11 +114,7 @@ struct BrickMapView {
   /// What the map says of a world voxel; without hits `min_height_m` is +infinity, without hits and passes
   /// the voxel is unknown, as it is where the grid does not reach.
   [[nodiscard]] VoxelRecord voxel_at(const Int3& world) const {
-    const std::int32_t brick =
-        brick_at({floor_to_brick(world[0]) / kBrickEdge, floor_to_brick(world[1]) / kBrickEdge,
-                  floor_to_brick(world[2]) / kBrickEdge});
-    if (brick < 0) return kUnknownVoxel;
-    const std::int32_t value = lookup_of(brick)[cell_in_brick(world[0], world[1], world[2])];
+    const std::int32_t value = lookup_at(*this, world);
     if (value >= 0) return records[value];
     return {0, passes_of(value), kUnknownVoxel.min_height_m};
   }

@@ -30,6 +30,12 @@ GVOM_HD inline std::int32_t floor_to_brick(std::int32_t voxel) {
   return voxel & ~(kBrickEdge - 1);
 }
 
+/// The brick of a world voxel.
+GVOM_HD inline Int3 brick_of(const Int3& world) {
+  return {floor_to_brick(world[0]) / kBrickEdge, floor_to_brick(world[1]) / kBrickEdge,
+          floor_to_brick(world[2]) / kBrickEdge};
+}
+
 /// Index of a cell within its brick; z runs fastest, so that a column's voxels lie side by side.
 GVOM_HD inline std::uint32_t cell_in_brick(std::int32_t x, std::int32_t y, std::int32_t z) {
   return static_cast<std::uint32_t>(((x & 7) << 6) | ((y & 7) << 3) | (z & 7));

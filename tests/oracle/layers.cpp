@@ -165,7 +165,7 @@ Layers make_layers(const MapperConfig& config, const Fusion& fusion) {
   });
   write_last_seen(map, fusion, out);
   const ColumnAt vehicle = vehicle_column(newest);
-  find_obstacles(map, ground, vehicle, out);
+  find_obstacles(map, Leaving(fusion), ground, vehicle, out);
   each_column(out.n, [&](int x, int y) { fit_plane(config, ground, x, y, out); });
   find_holes(map, ground, vehicle, out);
   each_column(out.n,

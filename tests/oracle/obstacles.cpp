@@ -15,8 +15,13 @@ struct Sums {
 
 class Obstacles {
  public:
-  Obstacles(const FusedColumns& map, const Ground& ground, const ColumnAt& vehicle)
-      : map_(map), layers_(map.config.layers), ground_(ground), vehicle_(vehicle), sums_(ground.rim.n(), {}) {
+  Obstacles(const FusedColumns& map, const Leaving& leaving, const Ground& ground, const ColumnAt& vehicle)
+      : map_(map),
+        leaving_(leaving),
+        layers_(map.config.layers),
+        ground_(ground),
+        vehicle_(vehicle),
+        sums_(ground.rim.n(), {}) {
     each_column(sums_.n(), [&](int x, int y) { sums_.set(x, y, sums_of(x, y)); });
   }
 
@@ -54,19 +59,39 @@ class Obstacles {
     return map_.column(x, y).at(z).remembered && !map_.remembers_ground(x, y);
   }
 
+  // An occupied voxel from 0.1 m below an obstacle's height on, but up to the greatest.
+  [[nodiscard]] bool is_at_height(int x, int y, int z) const {
+    if (!map_.column(x, y).occupied(z) || is_past(x, y, z)) return false;
+    const double over_m = over_ground_m(x, y, z);
+    return over_m >= layers_.min_obstacle_height_m - 0.1 && over_m <= layers_.max_obstacle_height_m;
+  }
+
+  // R11: by what the rays say, or with the one below it.
+  [[nodiscard]] bool was_left(int x, int y, int z) const {
+    if (!is_at_height(x, y, z)) return false;
+    const Int3& origin = map_.voxels.grid().origin;
+    const Int3 world{origin[0] + x, origin[1] + y, origin[2] + z};
+    if (leaving_.passed(world, map_.column(x, y).at(z))) return true;
+    return leaving_.quiet(world) && was_left(x, y, z - 1);
+  }
+
+  [[nodiscard]] bool is_obstacle(int x, int y, int z) const {
+    return is_at_height(x, y, z) && over_ground_m(x, y, z) >= layers_.min_obstacle_height_m &&
+           !was_left(x, y, z);
+  }
+
   [[nodiscard]] Sums sums_of(int x, int y) const {
     Sums sums;
     if (!has_height(x, y)) return sums;
     const ColumnVoxels column = map_.column(x, y);
     for (int z = 0; z < column.count(); ++z) {
-      if (!column.occupied(z)) continue;
-      const double over_m = over_ground_m(x, y, z);
-      if (over_m > layers_.max_obstacle_height_m) continue;
-      if (is_past(x, y, z)) continue;
-      if (over_m >= layers_.min_obstacle_height_m - 0.1) sums.low_hits += column.at(z).hits;
-      if (over_m < layers_.min_obstacle_height_m) continue;
-      sums.hits += column.at(z).hits;
+      if (!is_at_height(x, y, z)) continue;
+      const bool low = over_ground_m(x, y, z) < layers_.min_obstacle_height_m, left = was_left(x, y, z);
+      if (!left) sums.low_hits += column.at(z).hits;
+      if (low) continue;
       sums.rays += std::uint64_t{column.at(z).hits} + column.at(z).passes;
+      if (left) continue;
+      sums.hits += column.at(z).hits;
       sums.voxels += 1;
     }
     return sums;
@@ -139,10 +164,8 @@ class Obstacles {
   }
 
   [[nodiscard]] bool is_tall(int x, int y) const {
-    const ColumnVoxels column = map_.column(x, y);
     int z = 0;
-    while (!column.occupied(z) || over_ground_m(x, y, z) < layers_.min_obstacle_height_m || is_past(x, y, z))
-      ++z;
+    while (!is_obstacle(x, y, z)) ++z;
     double top_m = layer_m(x, y, z);
     for (int empty = 0; empty <= 1;) {
       const double next_m = layer_m(x, y, ++z);
@@ -154,6 +177,7 @@ class Obstacles {
   }
 
   const FusedColumns& map_;
+  const Leaving& leaving_;
   const LayersConfig& layers_;
   const Ground& ground_;
   ColumnAt vehicle_;
@@ -162,8 +186,9 @@ class Obstacles {
 
 }  // namespace
 
-void find_obstacles(const FusedColumns& map, const Ground& ground, const ColumnAt& vehicle, Layers& out) {
-  const Obstacles obstacles(map, ground, vehicle);
+void find_obstacles(const FusedColumns& map, const Leaving& leaving, const Ground& ground,
+                    const ColumnAt& vehicle, Layers& out) {
+  const Obstacles obstacles(map, leaving, ground, vehicle);
   each_column(out.n, [&](int x, int y) {
     const std::size_t i = out.index(x, y);
     const bool known = ground.height_m.at(x, y) < INFINITY;

@@ -3,11 +3,13 @@
 
 #include "tests/oracle/ground.hpp"
 #include "tests/oracle/layers.hpp"
+#include "tests/oracle/left.hpp"
 #include "tests/oracle/sight_line.hpp"
 
 namespace gvom::oracle {
 
 /// Writes `obstacle_density` and `clearance`, and adds HARD and SOFT to `flags`.
-void find_obstacles(const FusedColumns& map, const Ground& ground, const ColumnAt& vehicle, Layers& out);
+void find_obstacles(const FusedColumns& map, const Leaving& leaving, const Ground& ground,
+                    const ColumnAt& vehicle, Layers& out);
 
 }  // namespace gvom::oracle

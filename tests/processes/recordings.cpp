@@ -57,7 +57,7 @@ Vehicle roof_lidars(const std::string& folder, const std::string& odometry,
                     const std::vector<std::pair<std::string, std::string>>& sources) {
   Vehicle vehicle{folder + "/roof.yaml", {}, folder, small_map()};
   std::ofstream file(vehicle.file);
-  file << "name: roof\nodometry: {source: 'tum:" << odometry << "'}\nlidars:\n";
+  file << "name: roof\nodometry: {source: 'tum:" << odometry << "'}\nmemory: {max_age_s: 0}\nlidars:\n";
   for (const auto& [name, uri] : sources) {
     file << "  " << name << ":\n    source: '" << uri << "'\n    max_returns: 131072\n"
          << "    T_base_sensor: {x: 0, y: 0, z: 1.73, roll: 0, pitch: 0, yaw: 0}\n";

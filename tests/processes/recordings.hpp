@@ -20,7 +20,8 @@ std::optional<std::string> kitti_recording();
 /// The KITTI car with its one lidar `top`; logs go to FOLDER.
 Vehicle kitti(const std::string& folder, const std::string& recording);
 
-/// One lidar each, all at the place of KITTI's: `sources` are names and URIs.
+/// One lidar each, all at the place of KITTI's: `sources` are names and URIs. Nothing is remembered: each map
+/// tells of its own lowest voxels (R17), so that halves of a sweep tell less than the whole.
 Vehicle roof_lidars(const std::string& folder, const std::string& odometry,
                     const std::vector<std::pair<std::string, std::string>>& sources);
 

@@ -4,12 +4,20 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "core/memory.hpp"
+
 namespace gvom::bench {
 
 namespace {
 
 constexpr std::int64_t kTick_ns = 100'000'000;
 constexpr int kWarmUpTicks = 10;  // with a full window
+
+// So many ticks after a map has left the window nothing of it is remembered any more (R17).
+int ticks_remembered(const MemoryConfig& memory) {
+  const std::int32_t beats = kSpans * beats_of_span(beats_remembered(memory.max_age_s));
+  return static_cast<int>((std::int64_t{beats} << kBeatBits) / kTick_ns) + 1;
+}
 
 std::size_t most_map_bytes(const std::vector<OwnedMap>& maps) {
   std::size_t most = 0;
@@ -45,7 +53,7 @@ BrickMapView Drive::copy_map_of_tick(int tick, std::byte* begin) const {
 }
 
 int ticks_before(const Drive& drive) {
-  return drive.window + kWarmUpTicks;
+  return drive.window + ticks_remembered(MemoryConfig{}) + kWarmUpTicks;
 }
 
 std::uint32_t bricks_entering(const Grid& grid, const Grid& before) {

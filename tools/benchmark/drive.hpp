@@ -32,7 +32,7 @@ struct Stretch {
   int end;
 };
 
-/// Ticks before a stretch that nobody measures: they fill the window, and warm up.
+/// Ticks before a stretch that nobody measures: they fill the window and the memory, and warm up.
 int ticks_before(const Drive& drive);
 
 /// Bricks of `grid` that `before` does not reach.

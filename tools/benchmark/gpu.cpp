@@ -66,7 +66,7 @@ std::string kept_difference(const Drive& drive, std::vector<KeptLayers>& expecte
 }
 
 // The CPU is slower and drives only the last part, which gives the same layers: they are those of the
-// window's maps.
+// window's maps, and of what is remembered of the maps before.
 tl::expected<TickRow, Failure> fuse(const Drive& drive, int repeats) {
   const int begin = ticks_before(drive), end = begin + kDeviceRuns * repeats;
   const int host_ticks = kHostRuns * repeats;
