@@ -234,13 +234,19 @@ GVOM_HD inline std::uint8_t without_height(std::uint8_t visibility) {
   return is_remembered(visibility) ? visibility : static_cast<std::uint8_t>(Visibility::free_only);
 }
 
-/// `height` of a column (R9), or kNone_m. @param ground_m, lowest_m as in ColumnGround, @param stands_out
-/// higher than the ground on both sides, @param between_m `ground_between_rims` of a column that stands out
-/// or whose lowest return hangs
-GVOM_HD inline float height_of_ground_m(float ground_m, float lowest_m, bool stands_out, float between_m) {
-  const bool seen = ground_m != kNone_m;
-  if (seen && (!stands_out || between_m == kNone_m)) return ground_m;
-  return between_m == kNone_m ? kNone_m : lower_of(between_m, seen ? ground_m : lowest_m);
+/// `height` of a column (R9) that the columns around it are asked for, or kNone_m: its lowest return hangs,
+/// or its ground stands out or is doubtful. `at` indexes the view. @param lowest_m as in ColumnGround,
+/// @param standing of `Standing`
+GVOM_HD inline float height_by_rims_m(const GroundView& view, std::int32_t at, float lowest_m,
+                                      std::uint8_t standing, double resolution_m) {
+  const float ground_m = view.ground_m[at];
+  const bool doubtful = (standing & kDoubtful) != 0 && lowest_m != kNone_m;
+  const bool hangs =
+      ground_m == kNone_m || (doubtful && !is_face(view, at) && !is_carried(view, at, resolution_m));
+  if (!hangs && (standing & kStandsOut) == 0) return ground_m;
+  const float between_m = ground_between_rims(view, at);
+  if (between_m == kNone_m) return hangs ? kNone_m : ground_m;
+  return lower_of(between_m, ground_m == kNone_m ? lowest_m : ground_m);
 }
 
 inline HoleParameters hole_parameters(const ColumnParameters& p) {

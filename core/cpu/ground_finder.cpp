@@ -35,30 +35,57 @@ GVOM_CLONES void spread_along_y(const float* cones_m, const float* rise_m, std::
 }
 
 GVOM_CLONES void mark_standing(const float* ground_m, std::int32_t offset, float allowed_m, std::int32_t n,
-                               std::uint8_t* stands_out) {
+                               std::uint8_t* standing) {
   const float* after_m = ground_m + offset;
   const float* before_m = ground_m - offset;
   GVOM_INDEPENDENT
   for (std::int32_t x = 0; x < n; ++x)
-    stands_out[x] |= static_cast<std::uint8_t>(rises_over(ground_m[x], after_m[x], before_m[x], allowed_m));
+    standing[x] |= static_cast<std::uint8_t>(rises_over(ground_m[x], after_m[x], before_m[x], allowed_m));
 }
 
-GVOM_CLONES void mark_rims(const float* ground_m, const float* cone_m, const std::uint8_t* stands_out,
-                           std::int32_t n, std::uint8_t* is_rim) {
+GVOM_CLONES void mark_rims(const float* ground_m, const float* cone_m, std::int32_t n, std::uint8_t* standing,
+                           std::uint8_t* is_rim, std::int8_t* votes) {
   GVOM_INDEPENDENT
-  for (std::int32_t x = 0; x < n; ++x)
-    is_rim[x] = static_cast<std::uint8_t>(gvom::is_rim(ground_m[x], cone_m[x], stands_out[x] != 0));
+  for (std::int32_t x = 0; x < n; ++x) {
+    const bool rim = gvom::is_rim(ground_m[x], cone_m[x], standing[x] != 0);
+    is_rim[x] = static_cast<std::uint8_t>(rim);
+    votes[x] = rim_vote(ground_m[x], rim);
+    const int doubtful = static_cast<int>(towers(ground_m[x], cone_m[x])) * kDoubtful;
+    standing[x] = static_cast<std::uint8_t>(standing[x] | doubtful);
+  }
+}
+
+GVOM_CLONES void count_along_x(const std::int8_t* votes, std::int32_t n, std::int8_t* sums) {
+  GVOM_INDEPENDENT
+  for (std::int32_t x = 0; x < n; ++x) {
+    int sum = votes[x];
+    for (std::int32_t d = 1; d <= kConeReach; ++d) sum += votes[x - d] + votes[x + d];
+    sums[x] = static_cast<std::int8_t>(sum);
+  }
+}
+
+// Where the vote of the columns around is against it no ground is a rim, and all is doubtful.
+GVOM_CLONES void doubt_ground(const std::int8_t* sums, const float* ground_m, std::int32_t pitch,
+                              std::int32_t n, std::uint8_t* standing, std::uint8_t* is_rim) {
+  GVOM_INDEPENDENT
+  for (std::int32_t x = 0; x < n; ++x) {
+    int sum = sums[x];
+    for (std::int32_t d = 1; d <= kConeReach; ++d) sum += sums[x - d * pitch] + sums[x + d * pitch];
+    const int doubtful = static_cast<int>(sum < 0) & static_cast<int>(ground_m[x] < kNone_m);
+    standing[x] = static_cast<std::uint8_t>(standing[x] | (doubtful * kDoubtful));
+    is_rim[x] = static_cast<std::uint8_t>(is_rim[x] & ~doubtful);
+  }
 }
 
 // Heights of the columns that know theirs; marks those that ask the columns around them.
-GVOM_CLONES void copy_heights(const float* ground_m, const float* lowest_m, const std::uint8_t* stands_out,
+GVOM_CLONES void copy_heights(const float* ground_m, const float* lowest_m, const std::uint8_t* standing,
                               std::int32_t n, float* height_m, std::uint8_t* asks_around) {
   GVOM_INDEPENDENT
   for (std::int32_t x = 0; x < n; ++x) {
     const bool known = ground_m[x] != kNone_m;
     height_m[x] = known ? ground_m[x] : kUnknown;
     const int hangs = static_cast<int>(!known) & static_cast<int>(lowest_m[x] != kNone_m);
-    asks_around[x] = static_cast<std::uint8_t>(hangs | stands_out[x]);
+    asks_around[x] = static_cast<std::uint8_t>(hangs | standing[x]);
   }
 }
 
@@ -84,7 +111,9 @@ GroundFinder::GroundFinder(std::int32_t n_xy, double resolution_m) : grid_{n_xy}
   for (std::vector<float>* heights : {&lowest_ray_m_, &ground_m_, &lowest_m_, &cone_m_})
     heights->resize(size, kNone_m);
   is_rim_.resize(size);
-  stands_out_.resize(size);
+  standing_.resize(size);
+  votes_.resize(size);
+  row_votes_.resize(size);
   cone_row_m_.resize(static_cast<std::size_t>(n_xy));
   asks_around_.resize(static_cast<std::size_t>(n_xy));
 }
@@ -92,7 +121,7 @@ GroundFinder::GroundFinder(std::int32_t n_xy, double resolution_m) : grid_{n_xy}
 void GroundFinder::find(const FusedView& map, const ColumnParameters& p, const LayerArrays& out) {
   read_columns(map, p, out);
   find_rims();
-  write_heights(out);
+  write_heights(p, out);
 }
 
 void GroundFinder::read_columns(const FusedView& map, const ColumnParameters& p, const LayerArrays& out) {
@@ -115,34 +144,41 @@ void GroundFinder::find_rims() {
   for (std::int32_t y = 0; y < n; ++y) {
     const std::int32_t row = grid_.at(0, y);
     spread_along_x(ground_m_.data() + row, cone_rise_m_.data(), n, cone_m_.data() + row);
-    std::fill_n(stands_out_.data() + row, n, std::uint8_t{0});
+    std::fill_n(standing_.data() + row, n, std::uint8_t{0});
     for (std::int32_t line = 0; line < kLines; ++line)
       for (std::int32_t d = 1; d <= kSides; ++d)
         mark_standing(ground_m_.data() + row, d * line_offset(grid_, line),
                       allowed_rise_m_[static_cast<std::size_t>(line * kSides + d - 1)], n,
-                      stands_out_.data() + row);
+                      standing_.data() + row);
   }
   for (std::int32_t y = 0; y < n; ++y) {
     const std::int32_t row = grid_.at(0, y);
     spread_along_y(cone_m_.data() + row, cone_rise_m_.data(), grid_.pitch(), n, cone_row_m_.data());
-    mark_rims(ground_m_.data() + row, cone_row_m_.data(), stands_out_.data() + row, n, is_rim_.data() + row);
+    mark_rims(ground_m_.data() + row, cone_row_m_.data(), n, standing_.data() + row, is_rim_.data() + row,
+              votes_.data() + row);
+    count_along_x(votes_.data() + row, n, row_votes_.data() + row);
+  }
+  for (std::int32_t y = 0; y < n; ++y) {
+    const std::int32_t row = grid_.at(0, y);
+    doubt_ground(row_votes_.data() + row, ground_m_.data() + row, grid_.pitch(), n, standing_.data() + row,
+                 is_rim_.data() + row);
   }
 }
 
-void GroundFinder::write_heights(const LayerArrays& out) {
+void GroundFinder::write_heights(const ColumnParameters& p, const LayerArrays& out) {
   const std::int32_t n = grid_.n_xy;
   for (std::int32_t y = 0; y < n; ++y) {
     const std::int32_t row = grid_.at(0, y);
-    copy_heights(ground_m_.data() + row, lowest_m_.data() + row, stands_out_.data() + row, n,
+    copy_heights(ground_m_.data() + row, lowest_m_.data() + row, standing_.data() + row, n,
                  out.height + y * n, asks_around_.data());
-    for_each_marked(asks_around_, [&](std::int32_t x) { ask_around(row + x, y * n + x, out); });
+    for_each_marked(asks_around_, [&](std::int32_t x) { ask_around(p, row + x, y * n + x, out); });
   }
 }
 
-void GroundFinder::ask_around(std::int32_t at, std::int32_t i, const LayerArrays& out) {
+void GroundFinder::ask_around(const ColumnParameters& p, std::int32_t at, std::int32_t i,
+                              const LayerArrays& out) {
   const auto a = static_cast<std::size_t>(at);
-  const float between_m = ground_between_rims(view(), at);
-  const float height_m = height_of_ground_m(ground_m_[a], lowest_m_[a], stands_out_[a] != 0, between_m);
+  const float height_m = height_by_rims_m(view(), at, lowest_m_[a], standing_[a], p.resolution_xy_m);
   out.height[i] = height_m == kNone_m ? kUnknown : height_m;
   if (height_m == kNone_m) out.visibility[i] = without_height(out.visibility[i]);
 }

@@ -25,14 +25,15 @@ class GroundFinder {
  private:
   void read_columns(const FusedView& map, const ColumnParameters& p, const LayerArrays& out);
   void find_rims();
-  void write_heights(const LayerArrays& out);
-  void ask_around(std::int32_t at, std::int32_t i, const LayerArrays& out);
+  void write_heights(const ColumnParameters& p, const LayerArrays& out);
+  void ask_around(const ColumnParameters& p, std::int32_t at, std::int32_t i, const LayerArrays& out);
 
   ColumnGrid grid_;
   std::vector<float> allowed_rise_m_;  // [line][distance - 1]
   std::vector<float> cone_rise_m_;     // [distance]
   std::vector<float> lowest_ray_m_, ground_m_, lowest_m_, cone_m_;
-  std::vector<std::uint8_t> is_rim_, stands_out_;
+  std::vector<std::uint8_t> is_rim_, standing_;
+  std::vector<std::int8_t> votes_, row_votes_;
   std::vector<float> cone_row_m_;
   std::vector<std::uint8_t> asks_around_;
 };

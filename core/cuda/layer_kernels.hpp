@@ -31,11 +31,13 @@ struct ColumnArrays {
   ColumnGrid grid;
   float* lowest_ray_m;  ///< As in GroundView, as are `ground_m` and `is_rim`.
   float* ground_m;
-  float* lowest_m;           ///< Of the lowest return, or kNone_m.
-  float* cone_m;             ///< The lowest cone over ground of the same row, or kNone_m.
-  float* plane_m;            ///< `height` where there is ground, else kUnknown.
-  std::uint8_t* stands_out;  ///< 1: higher than the ground on both sides.
+  float* lowest_m;         ///< Of the lowest return, or kNone_m.
+  float* cone_m;           ///< The lowest cone over ground of the same row, or kNone_m.
+  float* plane_m;          ///< `height` where there is ground, else kUnknown.
+  std::uint8_t* standing;  ///< Of `Standing`.
   std::uint8_t* is_rim;
+  std::int8_t* votes;        ///< On whether ground is doubtful: `rim_vote`.
+  std::int8_t* row_votes;    ///< Their sum over the columns of the row.
   std::uint8_t* shows_hole;  ///< 1 or 0.
   ObstacleSums* obstacles;
   std::uint8_t* lowest_obstacle;  ///< The lowest obstacle voxel.
@@ -88,16 +90,19 @@ struct SpreadCones {
   }
 };
 
-/// For each column: whether its ground stands out, and whether it is a rim (R9).
+/// For each column: whether its ground stands out or towers, and whether it may be a rim (R9).
 struct FindRims {
   ColumnArrays columns;
   AllowedRises rises;
 
   __device__ void operator()(std::int32_t i) const {
     const std::int32_t at = columns.at(i);
-    const bool out = stands_out(columns.ground_m + at);
-    columns.stands_out[at] = out ? 1 : 0;
-    columns.is_rim[at] = is_rim(columns.ground_m[at], lowest_cone_m(columns.cone_m + at), out) ? 1 : 0;
+    const float ground_m = columns.ground_m[at], cone_m = lowest_cone_m(columns.cone_m + at);
+    const bool out = stands_out(columns.ground_m + at), rim = is_rim(ground_m, cone_m, out);
+    columns.standing[at] =
+        static_cast<std::uint8_t>((out ? kStandsOut : 0) | (towers(ground_m, cone_m) ? kDoubtful : 0));
+    columns.is_rim[at] = rim ? 1 : 0;
+    columns.votes[at] = rim_vote(ground_m, rim);
   }
 
  private:
@@ -125,6 +130,36 @@ struct FindRims {
   }
 };
 
+/// For each column: the votes of its row (R9).
+struct CountVotes {
+  ColumnArrays columns;
+
+  __device__ void operator()(std::int32_t i) const {
+    const std::int8_t* votes = columns.votes + columns.at(i);
+    std::int32_t sum = *votes;
+    GVOM_UNROLL
+    for (std::int32_t d = 1; d <= kConeReach; ++d) sum += votes[-d] + votes[d];
+    columns.row_votes[columns.at(i)] = static_cast<std::int8_t>(sum);
+  }
+};
+
+/// For each column: whether the vote of those around is against its ground (R9).
+struct DoubtGround {
+  ColumnArrays columns;
+
+  __device__ void operator()(std::int32_t i) const {
+    const std::int32_t at = columns.at(i), pitch = columns.grid.pitch();
+    if (columns.ground_m[at] == kNone_m) return;
+    std::int32_t sum = columns.row_votes[at];
+    GVOM_UNROLL
+    for (std::int32_t d = 1; d <= kConeReach; ++d)
+      sum += columns.row_votes[at - d * pitch] + columns.row_votes[at + d * pitch];
+    if (sum >= 0) return;
+    columns.standing[at] |= static_cast<std::uint8_t>(kDoubtful);
+    columns.is_rim[at] = 0;
+  }
+};
+
 /// For each column: its height (R9), and what stands and hangs over it (R11, R14).
 struct WriteHeights {
   const LayerTick* tick;
@@ -134,14 +169,15 @@ struct WriteHeights {
     const LayerArrays& out = tick->out;
     const std::int32_t at = columns.at(i);
     const float ground_m = columns.ground_m[at], lowest_m = columns.lowest_m[at];
-    const bool stands_out = columns.stands_out[at] != 0;
     const bool hangs = ground_m == kNone_m && lowest_m != kNone_m;
-    const float between_m = stands_out || hangs ? ground_between_rims(columns.ground(), at) : kNone_m;
-    const float height_m = height_of_ground_m(ground_m, lowest_m, stands_out, between_m);
+    float height_m = ground_m;
+    if (hangs || columns.standing[at] != 0)
+      height_m = height_by_rims_m(columns.ground(), at, lowest_m, columns.standing[at],
+                                  tick->parameters.resolution_xy_m);
     const bool known = height_m != kNone_m;
     out.height[i] = known ? height_m : kUnknown;
     columns.plane_m[at] = known && ground_m != kNone_m ? height_m : kUnknown;
-    if (hangs && !known) out.visibility[i] = without_height(out.visibility[i]);
+    if (!known && lowest_m != kNone_m) out.visibility[i] = without_height(out.visibility[i]);
     ColumnObstacles over{};
     if (known)
       over = read_obstacles(tick->map, tick->window, tick->parameters, columns.x(i), columns.y(i), height_m,

@@ -50,6 +50,8 @@ ColumnArrays column_arrays(Device& device, const ColumnGrid& grid) {
           filled(kUnknown),
           flags(),
           flags(),
+          static_cast<std::int8_t*>(zeros(size)),
+          static_cast<std::int8_t*>(zeros(size)),
           flags(),
           static_cast<ObstacleSums*>(zeros(size * sizeof(ObstacleSums))),
           flags()};
@@ -84,6 +86,8 @@ void LayerMaker::record() {
     for_each(device_, n, ReadColumns{tick_, columns_});
     for_each(device_, n, SpreadCones{columns_, rises});
     for_each(device_, n, FindRims{columns_, rises});
+    for_each(device_, n, CountVotes{columns_});
+    for_each(device_, n, DoubtGround{columns_});
     for_each(device_, n, WriteHeights{tick_, columns_});
     for_each(device_, n, JudgeColumns{tick_, columns_});
     for_each(device_, n, FinishColumns{tick_, columns_});

@@ -236,6 +236,42 @@ TEST_CASE("Ground beside a ditch keeps its own height: on the other side there i
   CHECK(rig.column(9.75, 0.25).height == -0.2f);
 }
 
+TEST_CASE("A crown that no ray passed below, beside ground on one side, has no height") {
+  Rig rig;
+  rig.see(floor_points(2, 8, -4, 4) + Points{{8.25, 0.25, 3.05}, {8.75, 0.25, 3.45}});
+  for (const double x : {8.25, 8.75}) {
+    CHECK(std::isnan(rig.column(x, 0.25).height));
+    CHECK(rig.column(x, 0.25).visibility == 1);
+    CHECK(rig.column(x, 0.25).cost == 255);
+  }
+  CHECK(rig.column(7.75, 0.25).height == 0.05f);
+}
+
+TEST_CASE("An island of leaves without ground around it has no height") {
+  // Nine columns; all but the middle one are over it by more than ground rises.
+  const auto leaves = [](double x, double y) { return x == 8.25 && y == 0.25 ? 2.55 : 4.05 + 0.5 * y; };
+  Rig rig;
+  rig.see(surface(7.5, 9, -0.5, 1, leaves));
+  CHECK(std::isnan(rig.column(8.25, 0.25).height));
+  CHECK(std::isnan(rig.column(8.75, 0.75).height));
+}
+
+TEST_CASE("A face of 60 degrees, 3 m high and seen from below, keeps its ground up to its edge") {
+  const auto face = [](double x, double) { return 0.05 + (x < 8 ? 0 : std::tan(M_PI / 3) * (x - 7.75)); };
+  Rig rig;
+  rig.see(surface(2, 10, -4, 4, face));
+  for (const double x : {8.25, 8.75, 9.25, 9.75}) {
+    CAPTURE(x);
+    CHECK(rig.column(x, 0.25).height == Approx(0.05 + std::tan(M_PI / 3) * (x - 7.75)));
+  }
+}
+
+TEST_CASE("Ground around a return mirrored 3 m below keeps its height") {
+  Rig rig;
+  rig.see(floor_but_one() + Points{{8.25, 0.25, -2.95}});
+  for (const double x : {6.75, 7.75, 8.75, 9.75}) CHECK(rig.column(x, 0.25).height == 0.05f);
+}
+
 // One hit 1 m up, and rays over the same way that went on.
 ColumnValues worn_by(int passes, const Points& ground) {
   Rig rig;

@@ -76,16 +76,32 @@ bool stands_out(const Columns<float>& known_m, int x, int y, double edge_m) {
   return false;
 }
 
-// 5, of ground that does not stand out.
-bool is_rim(const Columns<float>& known_m, int x, int y, double edge_m) {
-  if (known_m.at(x, y) == kUnknown_m) return false;
+float rise_m(int columns, double edge_m) {
+  return static_cast<float>(0.6 * (std::abs(columns) * edge_m));
+}
+
+// 5 and 6: whether known ground is higher by this much than some ground around would let it be.
+bool is_over_cones(const Columns<float>& known_m, int x, int y, double edge_m, float by_m) {
   for (int dy = -6; dy <= 6; ++dy)
     for (int dx = -6; dx <= 6; ++dx) {
-      const auto rise_x_m = static_cast<float>(0.6 * (std::abs(dx) * edge_m));
-      const auto rise_y_m = static_cast<float>(0.6 * (std::abs(dy) * edge_m));
-      if (known_m.at(x, y) > known_m.at(x + dx, y + dy) + rise_x_m + rise_y_m + 0.1f) return false;
+      const float cone_m = known_m.at(x + dx, y + dy) + rise_m(dx, edge_m) + rise_m(dy, edge_m);
+      if (known_m.at(x, y) > cone_m + by_m) return true;
     }
-  return true;
+  return false;
+}
+
+// 5, of known ground.
+bool is_rough(const Columns<float>& known_m, const Columns<YesNo>& perhaps_rim, int x, int y) {
+  int rims = 0, others = 0;
+  for (int dy = -6; dy <= 6; ++dy)
+    for (int dx = -6; dx <= 6; ++dx) {
+      const bool known = known_m.at(x + dx, y + dy) != kUnknown_m;
+      if (known && perhaps_rim.at(x + dx, y + dy) == YesNo::yes)
+        ++rims;
+      else if (known)
+        ++others;
+    }
+  return 4 * rims < others;
 }
 
 // Columns to the nearest rim of 8.
@@ -96,6 +112,42 @@ std::optional<int> way_to_rim(const Columns<YesNo>& rim, int x, int y, int dx, i
 }
 
 // 6.
+bool is_carried(const Ground& ground, int x, int y, double edge_m) {
+  for (const Line& line : kFourLines)
+    for (const int way : {1, -1}) {
+      const int dx = way * line.dx, dy = way * line.dy;
+      const auto d = way_to_rim(ground.rim, x, y, dx, dy);
+      if (!d) continue;
+      float reach_m = ground.known_m.at(x + *d * dx, y + *d * dy) + rise_m(*d, edge_m);
+      if (line.stretch == 2) reach_m += rise_m(*d, edge_m);
+      if (ground.known_m.at(x, y) <= reach_m + 0.1f) return true;
+    }
+  return false;
+}
+
+// 6: of a line; nothing where it is not known.
+std::optional<float> bend_m(const Columns<float>& known_m, int x, int y, const Line& line) {
+  const auto known = [&](int d) { return known_m.at(x + d * line.dx, y + d * line.dy); };
+  const bool before = known(-1) < kUnknown_m, after = known(1) < kUnknown_m;
+  if (!before && !after) return std::nullopt;
+  const int middle = before && after ? 0 : after ? 1 : -1;
+  const float one_m = known(middle - 1), other_m = known(middle + 1);
+  if (one_m == kUnknown_m || other_m == kUnknown_m) return std::nullopt;
+  return std::abs(one_m + other_m - 2 * known(middle));
+}
+
+// 6.
+bool is_face(const Columns<float>& known_m, int x, int y) {
+  int even = 0;
+  for (const Line& line : kFourLines)
+    if (const auto bend = bend_m(known_m, x, y, line)) {
+      if (*bend > 1) return false;
+      ++even;
+    }
+  return even >= 3;
+}
+
+// 7.
 float between_rims_m(const Ground& ground, int x, int y) {
   double weights = 0, heights = 0;
   for (const Line& line : kFourLines) {
@@ -112,6 +164,32 @@ float between_rims_m(const Ground& ground, int x, int y) {
   return weights == 0 ? kUnknown_m : static_cast<float>(heights / weights);
 }
 
+struct Standing {
+  explicit Standing(int n) : out(n, YesNo::no), doubtful(n, YesNo::no) {}
+  Columns<YesNo> out, doubtful;
+};
+
+// 4 to 6: rims, and what stands out or is doubtful.
+void find_rims(Ground& ground, double edge_m, Standing& standing) {
+  const int n = ground.known_m.n();
+  Columns<YesNo> perhaps_rim(n, YesNo::no);
+  each_column(n, [&](int x, int y) {
+    if (ground.known_m.at(x, y) == kUnknown_m) return;
+    if (is_over_cones(ground.known_m, x, y, edge_m, 1.2f)) standing.doubtful.set(x, y, YesNo::yes);
+    if (stands_out(ground.known_m, x, y, edge_m))
+      standing.out.set(x, y, YesNo::yes);
+    else if (!is_over_cones(ground.known_m, x, y, edge_m, 0.1f))
+      perhaps_rim.set(x, y, YesNo::yes);
+  });
+  each_column(n, [&](int x, int y) {
+    if (ground.known_m.at(x, y) == kUnknown_m) return;
+    if (is_rough(ground.known_m, perhaps_rim, x, y))
+      standing.doubtful.set(x, y, YesNo::yes);
+    else
+      ground.rim.set(x, y, perhaps_rim.at(x, y));
+  });
+}
+
 }  // namespace
 
 Ground::Ground(int n)
@@ -125,21 +203,22 @@ Ground find_ground(const FusedColumns& map) {
   const int n = map.config.map.size_xy;
   const double edge_m = map.config.map.resolution_xy_m;
   Ground ground(n);
-  Columns<YesNo> outstanding(n, YesNo::no);
   each_column(n, [&](int x, int y) { read_column(map, x, y, ground); });
-  each_column(n, [&](int x, int y) {
-    if (stands_out(ground.known_m, x, y, edge_m))
-      outstanding.set(x, y, YesNo::yes);
-    else if (is_rim(ground.known_m, x, y, edge_m))
-      ground.rim.set(x, y, YesNo::yes);
-  });
+  Standing standing(n);
+  find_rims(ground, edge_m, standing);
   each_column(n, [&](int x, int y) {
     const float known_m = ground.known_m.at(x, y), lowest_m = ground.lowest_m.at(x, y);
+    const bool seen = known_m < kUnknown_m && ground.assumed.at(x, y) == YesNo::no;
+    const bool foliage = seen && standing.doubtful.at(x, y) == YesNo::yes &&
+                         !is_carried(ground, x, y, edge_m) && !is_face(ground.known_m, x, y);
     const bool hidden = known_m == kUnknown_m && lowest_m < kUnknown_m;
     ground.height_m.set(x, y, known_m);
-    if (!hidden && outstanding.at(x, y) == YesNo::no) return;
+    if (!hidden && !foliage && standing.out.at(x, y) == YesNo::no) return;
     const float between_m = between_rims_m(ground, x, y);
-    if (between_m < kUnknown_m) ground.height_m.set(x, y, std::min(between_m, hidden ? lowest_m : known_m));
+    if (between_m < kUnknown_m)
+      ground.height_m.set(x, y, std::min(between_m, hidden ? lowest_m : known_m));
+    else if (foliage)
+      ground.height_m.set(x, y, kUnknown_m);
   });
   return ground;
 }
