@@ -50,7 +50,7 @@ TEST_CASE(
   for (int i = 0; i < 200; ++i) {
     const std::uint64_t waits = fake_cuda::counts().waits;
     REQUIRE(drive->step());
-    REQUIRE(drive->costs()->launches == 12);
+    REQUIRE(drive->costs()->launches == 14);
     // Two of them are the voxelizer's: its map's size, and the map.
     REQUIRE(fake_cuda::counts().waits == waits + 3);
   }
