@@ -38,21 +38,21 @@ void add_ticks(int window, const TickTimes& times, Report& report) {
 
 }  // namespace
 
-tl::expected<Report, Failure> measure_cpu(const Setting& setting, const Recording& recording, int repeats,
-                                          bool octomap) {
+tl::expected<Report, Failure> measure_cpu(const Setting& setting, const Recording& recording,
+                                          const CpuSetting& of) {
   const MapConfig config;
   const auto voxelized = measure_voxelizing(Backend::cpu, config, recording,
-                                            static_cast<std::size_t>(repeats) * recording.sweeps.size());
+                                            static_cast<std::size_t>(of.repeats) * recording.sweeps.size());
   if (!voxelized) return tl::make_unexpected(Failure(voxelized.error()));
-  const auto straight = measure_straight(config, recording, voxelized->maps, (repeats + 9) / 10);
+  const auto straight = measure_straight(config, recording, voxelized->maps, (of.repeats + 9) / 10);
   if (!straight.agree) return tl::make_unexpected(Failure("passes differ from the straight loop's"));
   Report report{setting, 0, 0, {}};
   add_ingest(*voxelized, straight, report);
-  if (octomap) add_octomap(recording, report);
+  if (of.octomap) add_octomap(recording, report);
   for (const int window : kWindows) {
-    const Drive drive{recording, voxelized->maps, config, window};
+    const Drive drive{recording, voxelized->maps, config, window, of.memory};
     const int first = ticks_before(drive);
-    const auto times = measure_ticks(Backend::cpu, drive, {first, first + 10 * repeats});
+    const auto times = measure_ticks(Backend::cpu, drive, {first, first + 10 * of.repeats});
     if (!times) return tl::make_unexpected(Failure(times.error()));
     add_ticks(window, *times, report);
   }

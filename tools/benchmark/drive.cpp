@@ -13,16 +13,18 @@ namespace {
 constexpr std::int64_t kTick_ns = 100'000'000;
 constexpr int kWarmUpTicks = 10;  // with a full window
 
-// So many ticks after a map has left the window nothing of it is remembered any more (R17).
-int ticks_remembered(const MemoryConfig& memory) {
-  const std::int32_t beats = kSpans * beats_of_span(beats_remembered(memory.max_age_s));
-  return static_cast<int>((std::int64_t{beats} << kBeatBits) / kTick_ns) + 1;
-}
-
 std::size_t most_map_bytes(const std::vector<OwnedMap>& maps) {
   std::size_t most = 0;
   for (const OwnedMap& map : maps) most = std::max(most, map.view.bytes_in_one);
   return most;
+}
+
+// So many ticks after a map has left the window nothing of it is remembered any more (R17): rays are longest.
+int ticks_remembered(const MemoryConfig& memory) {
+  const std::int32_t beats = beats_remembered(memory.max_age_s);
+  if (beats == 0) return 0;
+  const std::int64_t rays_ns = std::int64_t{kSpans * beats_of_span(beats)} << kBeatBits;
+  return static_cast<int>(rays_ns / kTick_ns) + 1;
 }
 
 }  // namespace
@@ -53,7 +55,7 @@ BrickMapView Drive::copy_map_of_tick(int tick, std::byte* begin) const {
 }
 
 int ticks_before(const Drive& drive) {
-  return drive.window + ticks_remembered(MemoryConfig{}) + kWarmUpTicks;
+  return drive.window + ticks_remembered(drive.memory) + kWarmUpTicks;
 }
 
 std::uint32_t bricks_entering(const Grid& grid, const Grid& before) {

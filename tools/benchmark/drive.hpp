@@ -15,6 +15,7 @@ struct Drive {
   const std::vector<OwnedMap>& maps;  ///< Of each sweep.
   MapConfig map;
   int window;
+  MemoryConfig memory = {};
 
   [[nodiscard]] std::size_t columns() const {
     return static_cast<std::size_t>(map.size_xy) * static_cast<std::size_t>(map.size_xy);

@@ -25,6 +25,7 @@ struct Options {
   std::string summary;
   double sensor_height_m = 1.73;
   bool octomap = true;
+  gvom::MemoryConfig memory;
   bool gpu = false;
   bool hold_gpu = false;
   GpuSetting setting;
@@ -54,12 +55,17 @@ void add_options(CLI::App& app, Options& options) {
                  "times over the recording; with --gpu 20 sweeps and ticks each on the GPU, 4 on the CPU")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
+  auto* memory = app.add_option("--memory", options.memory.max_age_s,
+                                "without --gpu: seconds of what is remembered of maps that left the window")
+                     ->check(CLI::Range(0.0, 60.0))
+                     ->capture_default_str();
   app.add_flag("!--no-octomap", options.octomap, "leave OctoMap out");
   auto* gpu =
       app.add_flag("--gpu", options.gpu,
                    "the CUDA back end beside the CPU's, for several grids and windows, and nothing else");
   app.add_flag("--quick", options.setting.quick, "with --gpu: one small grid and window, to try it")
       ->needs(gpu);
+  gpu->excludes(memory);
   app.add_option("--grids", options.setting.grids,
                  "with --gpu: the first so many of 256 x 256 x 64 and 512 x 512 x 128")
       ->check(CLI::Range(1, 2))
@@ -101,7 +107,8 @@ tl::expected<Output, Failure> measure(const Options& options, const Recording& r
     return Output{markdown(setting, *comparison), summary(setting, *comparison),
                   to_json(setting, *comparison)};
   }
-  const auto report = measure_cpu(setting, recording, options.setting.repeats, options.octomap);
+  const auto report =
+      measure_cpu(setting, recording, {options.setting.repeats, options.octomap, options.memory});
   if (!report) return tl::make_unexpected(report.error());
   return Output{table(*report), table(*report), to_json(*report)};
 }

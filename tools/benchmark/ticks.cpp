@@ -13,6 +13,7 @@ FusionSetup setup_of(const Drive& drive, const HostMemory& shared, Kernels kerne
   setup.config.map = drive.map;
   setup.config.window.buffer_size = drive.window;
   setup.config.window.max_age_s = 3600;
+  setup.config.memory = drive.memory;
   setup.shared = shared;
   setup.times_kernels = kernels == Kernels::timed;
   for (const OwnedMap& map : drive.maps)
