@@ -31,6 +31,23 @@ GVOM_CLONES void add_row(const float* z_m, std::int32_t n, std::int32_t dx, std:
   }
 }
 
+// All of a plane of 3 x 3 columns at once: its sums stay in registers.
+GVOM_CLONES void sum_three_rows(const float* z_m, std::ptrdiff_t width, std::int32_t n, const SumRows& rows) {
+  const float *before_m = z_m - width, *after_m = z_m + width;
+  GVOM_INDEPENDENT
+  for (std::int32_t i = 0; i < n; ++i) {
+    PlaneSums s{0, 0, 0, 0, 0, 0, 0, 0, 0};
+    add_height(s, -1, -1, before_m[i - 1]), add_height(s, 0, -1, before_m[i]),
+        add_height(s, 1, -1, before_m[i + 1]);
+    add_height(s, -1, 0, z_m[i - 1]), add_height(s, 0, 0, z_m[i]), add_height(s, 1, 0, z_m[i + 1]);
+    add_height(s, -1, 1, after_m[i - 1]), add_height(s, 0, 1, after_m[i]),
+        add_height(s, 1, 1, after_m[i + 1]);
+    rows.n[i] = s.n, rows.x[i] = s.x, rows.y[i] = s.y;
+    rows.xx[i] = s.xx, rows.xy[i] = s.xy, rows.yy[i] = s.yy;
+    rows.z[i] = s.z, rows.xz[i] = s.xz, rows.yz[i] = s.yz;
+  }
+}
+
 GVOM_CLONES void solve_row(std::int32_t n, const SumRows& rows, const FitRows& fits) {
   GVOM_INDEPENDENT
   for (std::int32_t i = 0; i < n; ++i) {
@@ -64,6 +81,15 @@ PlaneFitter::PlaneFitter(std::int32_t n_xy, std::int32_t plane_size)
   fits_ = {d + 3 * n_xy, d + 4 * n_xy, d + 5 * n_xy, d + 6 * n_xy, i + 6 * n_xy};
 }
 
+void PlaneFitter::add_up(const float* centre_m, std::ptrdiff_t width) {
+  if (radius_ == 1) return sum_three_rows(centre_m, width, n_xy_, sums_);
+  std::fill(integers_.begin(), integers_.end(), 0);
+  std::fill(doubles_.begin(), doubles_.end(), 0.0);
+  for (std::int32_t dy = -radius_; dy <= radius_; ++dy)
+    for (std::int32_t dx = -radius_; dx <= radius_; ++dx)
+      add_row(centre_m + dy * width + dx, n_xy_, dx, dy, sums_);
+}
+
 void PlaneFitter::fit(const ColumnParameters& p, const GroundView& ground, const LayerArrays& out) {
   const std::ptrdiff_t width = n_xy_ + 2 * radius_;
   for (std::int32_t y = 0; y < n_xy_; ++y)
@@ -71,11 +97,7 @@ void PlaneFitter::fit(const ColumnParameters& p, const GroundView& ground, const
                 padded_.data() + (y + radius_) * width + radius_);
   for (std::ptrdiff_t y = 0; y < n_xy_; ++y) {
     const float* centre = padded_.data() + (y + radius_) * width + radius_;
-    std::fill(integers_.begin(), integers_.end(), 0);
-    std::fill(doubles_.begin(), doubles_.end(), 0.0);
-    for (std::int32_t dy = -radius_; dy <= radius_; ++dy)
-      for (std::int32_t dx = -radius_; dx <= radius_; ++dx)
-        add_row(centre + dy * width + dx, n_xy_, dx, dy, sums_);
+    add_up(centre, width);
     solve_row(n_xy_, sums_, fits_);
     for (std::int32_t dy = -radius_; dy <= radius_; ++dy)
       for (std::int32_t dx = -radius_; dx <= radius_; ++dx)

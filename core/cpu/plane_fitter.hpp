@@ -35,6 +35,9 @@ class PlaneFitter {
   void fit(const ColumnParameters& p, const GroundView& ground, const LayerArrays& out);
 
  private:
+  // The sums of a row, whose heights begin at `centre_m`.
+  void add_up(const float* centre_m, std::ptrdiff_t width);
+
   std::int32_t n_xy_;
   std::int32_t radius_;
   // The rows of heights around the one in work, with undefined ones beyond the grid's edges.
