@@ -48,6 +48,11 @@ GVOM_HD inline bool subtract_record(const VoxelRecord& record, const FusedCell& 
 GVOM_HD inline bool is_occupied(std::uint32_t hits, std::uint32_t min_hits) {
   return hits >= min_hits;
 }
+/// A voxel that was hit once in so many passes is no ground (R8): dust, a blade that moves.
+inline constexpr std::uint64_t kMostPassesPerHit = 64;
+GVOM_HD inline bool is_worn(std::uint32_t hits, std::uint32_t passes) {
+  return passes > kMostPassesPerHit * std::uint64_t{hits};
+}
 GVOM_HD inline bool is_free(std::uint32_t hits, std::uint32_t passes, std::uint32_t min_hits) {
   return (hits | passes) != 0 && !is_occupied(hits, min_hits);
 }

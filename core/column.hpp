@@ -57,9 +57,6 @@ inline ColumnParameters column_parameters(const MapperConfig& config, const Laye
           config.cost};
 }
 
-/// A voxel that was hit once in so many passes is no ground (R8): dust, a blade that moves.
-inline constexpr std::uint64_t kMostPassesPerHit = 64;
-
 /// Ground may be assumed where the column's centre is within the vehicle's radius (R9): on the plane that the
 /// vehicle stands on, metres; else kNone_m.
 GVOM_HD inline float assumed_ground_m(const ColumnParameters& p, std::int32_t x, std::int32_t y) {
@@ -70,12 +67,14 @@ GVOM_HD inline float assumed_ground_m(const ColumnParameters& p, std::int32_t x,
 }
 
 GVOM_HD inline bool is_worn(const FusedView& map, std::size_t cell) {
-  return map.passes[cell] > kMostPassesPerHit * std::uint64_t{map.hits[cell]};
+  return is_worn(map.hits[cell], map.passes[cell]);
 }
 
 /// The lowest occupied voxel that rays have not worn away (R8), or -1.
 GVOM_HD inline std::int32_t lowest_solid(const FusedView& map, std::int32_t x, std::int32_t y) {
-  const std::uint64_t* occupied = map.occupied + map.column(x, y) * static_cast<std::size_t>(map.words);
+  const std::size_t mask = map.column(x, y) * static_cast<std::size_t>(map.words);
+  if (map.solid != nullptr) return lowest_bit(map.solid + mask, map.words);
+  const std::uint64_t* occupied = map.occupied + mask;
   std::int32_t z = lowest_bit(occupied, map.words);
   while (z >= 0 && is_worn(map, map.cell(x, y, z))) z = next_bit(occupied, map.words, z);
   return z;
@@ -85,8 +84,11 @@ GVOM_HD inline std::int32_t lowest_solid(const FusedView& map, std::int32_t x, s
 GVOM_HD inline std::int32_t next_solid_of_window(const FusedView& map, std::int32_t x, std::int32_t y,
                                                  std::int32_t z) {
   const std::size_t mask = map.column(x, y) * static_cast<std::size_t>(map.words);
-  do z = next_bit(map.occupied + mask, map.words, z);
-  while (z >= 0 && (has_bit(map.memory.remembered + mask, z) || is_worn(map, map.cell(x, y, z))));
+  const bool knows_solid = map.solid != nullptr;
+  const std::uint64_t* const voxels = (knows_solid ? map.solid : map.occupied) + mask;
+  do z = next_bit(voxels, map.words, z);
+  while (z >= 0 &&
+         (has_bit(map.memory.remembered + mask, z) || (!knows_solid && is_worn(map, map.cell(x, y, z)))));
   return z;
 }
 
@@ -107,6 +109,7 @@ GVOM_HD inline LowestVoxel grazed_voxel(const FusedView& map, const ColumnParame
   if (lowest_free < 0 || (z >= 0 && lowest_free > z)) return kNothing;
   if (has_bit(map.memory.remembered + mask, lowest_free)) return kNothing;
   const std::size_t cell = map.cell(x, y, lowest_free);
+  if (!map.memory.may_be_hit(cell)) return kNothing;
   const RememberedHits& hits = map.memory.hits[cell];
   if (hits.bits == 0 || map.hits[cell] != 0) return kNothing;
   if (!(map.lowest_ray_m[map.stacked_column(x, y)] >= hits.min_height_m)) return kNothing;
@@ -174,7 +177,7 @@ GVOM_HD inline float age_s(std::int64_t age_ns) {
 GVOM_HD inline float last_seen_s(const FusedView& map, const ColumnParameters& p, std::int32_t x,
                                  std::int32_t y, const LowestVoxel& lowest, bool observed) {
   if (lowest.remembered)
-    return age_s(time_since(map.memory.hits[map.cell(x, y, lowest.z)].beat(), p.stamp_ns));
+    return age_s(time_since(map.memory.beat_of_hits(map.cell(x, y, lowest.z)), p.stamp_ns));
   const std::int64_t seen_ns = map.last_seen_ns[map.column(x, y)];
   if (seen_ns != kNeverSeen) return age_s(p.stamp_ns - seen_ns);
   if (!observed) return kUnknown;

@@ -31,6 +31,17 @@ struct MemoryView {
   const RememberedPasses* passes;    ///< [cell]
   const std::uint8_t* column_beats;  ///< [column_in_stacks]: of the newest map that left.
   const float* lowest_ray_m;         ///< [column_in_stacks]: of maps that left, or +infinity.
+  // Shorter ways to what `hits` says, where a back end has them: most voxels have nothing there.
+  const std::uint8_t* hit_bits = nullptr;    ///< Bit cell % 8 of [cell / 8]: `hits` has something.
+  const std::uint16_t* hit_beats = nullptr;  ///< [cell]: its beat, in the low byte.
+
+  [[nodiscard]] GVOM_HD bool may_be_hit(std::size_t cell) const {
+    return hit_bits == nullptr || (hit_bits[cell / 8] >> (cell % 8) & 1) != 0;
+  }
+  /// Of a voxel of which hits are remembered.
+  [[nodiscard]] GVOM_HD std::uint8_t beat_of_hits(std::size_t cell) const {
+    return hit_beats == nullptr ? hits[cell].beat() : static_cast<std::uint8_t>(hit_beats[cell]);
+  }
 };
 
 /// Pointers into the fused map. x, y, z are relative to the origin.
@@ -47,6 +58,7 @@ struct FusedView {
   const std::int64_t* last_seen_ns;  ///< [column]: newest stamp that observed it, or kNeverSeen (R15).
   const float* lowest_ray_m;         ///< [column_in_stacks]: lowest point of a ray (R5a), or +infinity.
   MemoryView memory;
+  const std::uint64_t* solid = nullptr;  ///< [column][word]: occupied and not worn (R8), if it is known.
 
   GVOM_HD std::int32_t torus(std::int32_t i, int axis) const {
     const std::int32_t n = axis == 2 ? n_z : n_xy;

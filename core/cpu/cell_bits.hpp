@@ -1,4 +1,4 @@
-// Loops over the 512 cells of a brick that decide how long a tick takes.
+// One bit for each of the 512 cells of a brick.
 #pragma once
 
 #include <array>
@@ -8,41 +8,51 @@
 
 #include "core/cell.hpp"
 
-#ifdef __SSE2__
-#include <emmintrin.h>
-#endif
-
 namespace gvom::cpu {
 
-/// One bit for each cell of a brick. Byte c is column c (x * 8 + y), its bit z the cell.
+/// Byte c is column c (x * 8 + y), its bit z the cell.
 using CellBits = std::array<std::uint8_t, kBrickCells / 8>;
 
-/// Bits of the cells with `value >= least`.
-inline CellBits at_least(const std::int32_t* values, std::int32_t least) {
-  CellBits bits;
-#ifdef __SSE2__
-  const __m128i below = _mm_set1_epi32(least - 1);
-  for (std::size_t i = 0; i < kBrickCells; i += 16) {
-    const auto* quad = reinterpret_cast<const __m128i*>(values + i);
-    const auto is = [&](int k) { return _mm_cmpgt_epi32(_mm_loadu_si128(quad + k), below); };
-    const __m128i all = _mm_packs_epi16(_mm_packs_epi32(is(0), is(1)), _mm_packs_epi32(is(2), is(3)));
-    const int two = _mm_movemask_epi8(all);
-    bits[i / 8] = static_cast<std::uint8_t>(two);
-    bits[i / 8 + 1] = static_cast<std::uint8_t>(two >> 8);
+/// Calls `change(out word, in words ..)` for 64 cells at a time.
+template <class Change, class... Bits>
+void change_words(CellBits& out, Change&& change, const Bits&... in) {
+  for (std::size_t i = 0; i < out.size(); i += sizeof(std::uint64_t)) {
+    const auto word_of = [i](const CellBits& bits) {
+      std::uint64_t word;
+      std::memcpy(&word, bits.data() + i, sizeof word);
+      return word;
+    };
+    std::uint64_t word = word_of(out);
+    change(word, word_of(in)...);
+    std::memcpy(out.data() + i, &word, sizeof word);
   }
-#else
-  for (std::size_t i = 0; i < kBrickCells; i += 8) {
-    unsigned column = 0;
-    for (unsigned k = 0; k < 8; ++k) column |= static_cast<unsigned>(values[i + k] >= least) << k;
-    bits[i / 8] = static_cast<std::uint8_t>(column);
-  }
-#endif
-  return bits;
 }
 
-/// The same of counts, which stay below 2^31.
-inline CellBits at_least(const std::uint32_t* counts, std::int32_t least) {
-  return at_least(reinterpret_cast<const std::int32_t*>(counts), least);
+inline CellBits operator&(const CellBits& a, const CellBits& b) {
+  CellBits both = a;
+  change_words(
+      both, [](std::uint64_t& word, std::uint64_t other) { word &= other; }, b);
+  return both;
+}
+inline CellBits operator|(const CellBits& a, const CellBits& b) {
+  CellBits any = a;
+  change_words(
+      any, [](std::uint64_t& word, std::uint64_t other) { word |= other; }, b);
+  return any;
+}
+/// Those of a that are not in b.
+inline CellBits without(const CellBits& a, const CellBits& b) {
+  CellBits rest = a;
+  change_words(
+      rest, [](std::uint64_t& word, std::uint64_t other) { word &= ~other; }, b);
+  return rest;
+}
+
+inline void set_bit(CellBits& bits, std::size_t cell) {
+  bits[cell / 8] = static_cast<std::uint8_t>(bits[cell / 8] | 1U << (cell % 8));
+}
+inline bool has_bit(const CellBits& bits, std::size_t cell) {
+  return (bits[cell / 8] >> (cell % 8) & 1) != 0;
 }
 
 /// Whether any is set.
@@ -61,15 +71,6 @@ void for_each_cell(const CellBits& bits, Visit&& visit) {
     std::uint64_t rest;
     std::memcpy(&rest, bits.data() + 8 * word, sizeof rest);
     for (; rest != 0; rest &= rest - 1) visit(64 * word + static_cast<std::size_t>(__builtin_ctzll(rest)));
-  }
-}
-
-/// Adds `sign` (1 or -1) times the passes of a brick's free voxels.
-template <int sign>
-void add_free_passes(const std::int32_t* lookup, std::uint32_t* passes) {
-  for (int i = 0; i < kBrickCells; ++i) {
-    const std::uint32_t free = free_passes(lookup[i]);
-    passes[i] += sign > 0 ? free : 0 - free;
   }
 }
 

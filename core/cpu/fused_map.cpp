@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/cpu/cell_bits.hpp"
+#include "core/cpu/brick_cells.hpp"
 
 namespace gvom::cpu {
 
@@ -32,6 +32,7 @@ FusedMap::FusedMap(const MapperConfig& config)
   live_.resize(bricks);
   hit_cells_.resize(bricks);
   occupied_.resize(columns * static_cast<std::size_t>(words_));
+  solid_.resize(columns * static_cast<std::size_t>(words_));
   free_.resize(columns * static_cast<std::size_t>(words_));
   if (memory_.on()) remembered_.resize(columns * static_cast<std::size_t>(words_));
   last_seen_ns_.resize(columns, kNeverSeen);
@@ -51,7 +52,8 @@ FusedView FusedMap::view() const {
           free_.data(),
           last_seen_ns_.data(),
           lowest_ray_m_.data(),
-          memory_.on() ? memory_.view(remembered_.data()) : MemoryView{}};
+          memory_.on() ? memory_.view(remembered_.data()) : MemoryView{},
+          solid_.data()};
 }
 
 std::uint32_t FusedMap::slot_of(const Int3& b) const {
@@ -59,16 +61,11 @@ std::uint32_t FusedMap::slot_of(const Int3& b) const {
   return brick_slot(wrap(b[0], n[0]), wrap(b[1], n[1]), wrap(b[2], n[2]), n[0], n[1]);
 }
 
-std::size_t FusedMap::stack_of(std::int32_t bx, std::int32_t by) const {
+FusedMap::Stack FusedMap::stack_at(std::int32_t bx, std::int32_t by) const {
   const Int3 n = grid_.bricks();
-  return brick_slot(wrap(bx, n[0]), wrap(by, n[1]), 0, n[0], n[1]) * std::size_t{kBrickColumns};
-}
-
-std::size_t FusedMap::column_of(std::int32_t bx, std::int32_t by, int column) const {
-  const std::int32_t n = grid_.size[0];
-  const std::int32_t x = wrap(bx * kBrickEdge, n) + (column >> 3);
-  const std::int32_t y = wrap(by * kBrickEdge, n) + (column & 7);
-  return static_cast<std::size_t>(y) * static_cast<std::size_t>(n) + static_cast<std::size_t>(x);
+  const std::int32_t x = wrap(bx, n[0]), y = wrap(by, n[1]);
+  const auto first = static_cast<std::size_t>(y * grid_.size[0] + x) * kBrickEdge;
+  return {bx, by, brick_slot(x, y, 0, n[0], n[1]) * std::size_t{kBrickColumns}, first};
 }
 
 AddResult FusedMap::add(const WindowMap& map) {
@@ -83,17 +80,19 @@ AddResult FusedMap::add(const WindowMap& map) {
   const Int3 n = grid_.bricks();
   for (std::int32_t by = 0; by < n[1]; ++by)
     for (std::int32_t bx = 0; bx < n[0]; ++bx)
-      update_brick_column(brick_origin(grid_, 0) + bx, brick_origin(grid_, 1) + by, change);
+      update_stack(stack_at(brick_origin(grid_, 0) + bx, brick_origin(grid_, 1) + by), change);
   return result;
 }
 
-void FusedMap::update_brick_column(std::int32_t bx, std::int32_t by, const Change& change) {
+void FusedMap::update_stack(const Stack& stack, const Change& change) {
   const std::int32_t low = brick_origin(grid_, 2);
-  const bool stack_enters = change.before.size[0] == 0 || change.before.stack_of_brick(bx, by) < 0;
+  const bool stack_enters =
+      change.before.size[0] == 0 || change.before.stack_of_brick(stack.bx, stack.by) < 0;
   bool entered = change.moved_in_z;
-  if (memory_.on()) memory_.begin_stack(bx, by, stack_of(bx, by), stack_enters);
+  if (memory_.on()) memory_.begin_stack(stack.bx, stack.by, stack.rays, stack_enters);
+  masks_.begin();
   for (std::int32_t bz = low; bz < low + grid_.bricks()[2]; ++bz) {
-    const Int3 brick{bx, by, bz};
+    const Int3 brick{stack.bx, stack.by, bz};
     const std::uint32_t slot = slot_of(brick);
     const bool enters = change.before.slot_of_brick(brick) < 0;
     entered |= enters;
@@ -103,18 +102,20 @@ void FusedMap::update_brick_column(std::int32_t bx, std::int32_t by, const Chang
     else
       changed |= update_brick(brick, slot, change);
     if (memory_.on()) remember_brick(brick, slot, change);
-    if (changed) rebuild_masks(brick, slot);
+    if (changed) rebuild_masks(static_cast<std::size_t>(bz - low), slot);
   }
-  update_last_seen(bx, by, change, entered);
-  update_lowest_ray(bx, by, change, stack_enters);
+  write_masks(stack);
+  update_last_seen(stack, change, entered);
+  update_lowest_ray(stack, change, stack_enters);
 }
 
 bool FusedMap::update_brick(const Int3& brick, std::uint32_t slot, const Change& change) {
   bool changed = memory_.on() && memory_.expire(slot, cells_of(slot));
   const std::int32_t added = change.added->view.brick_at(brick);
   if (added >= 0) {
-    if (memory_.on()) memory_.give_way(slot, change.added->view.lookup_of(added), cells_of(slot));
-    add_brick(slot, change.added->view, added);
+    const ObservedBits observed = observed_in(change.added->view.lookup_of(added));
+    if (memory_.on()) memory_.give_way(slot, observed, cells_of(slot));
+    add_brick(slot, change.added->view, added, observed.hit);
     changed = true;
   }
   for (const WindowMap& left : *change.left) {
@@ -145,16 +146,18 @@ void FusedMap::refill(const Int3& brick, std::uint32_t slot) {
   if (memory_.on()) memory_.forget(slot);
   for (const WindowMap& map : window_.maps()) {
     const std::int32_t index = map.view.brick_at(brick);
-    if (index >= 0) add_brick(slot, map.view, index);
+    if (index < 0) continue;
+    add_brick(slot, map.view, index, observed_in(map.view.lookup_of(index)).hit);
   }
 }
 
-void FusedMap::add_brick(std::uint32_t slot, const BrickMapView& map, std::int32_t brick) {
+void FusedMap::add_brick(std::uint32_t slot, const BrickMapView& map, std::int32_t brick,
+                         const CellBits& hit) {
   const std::int32_t* lookup = map.lookup_of(brick);
   const std::size_t begin = std::size_t{slot} * kBrickCells;
   live_[slot] = 1;
-  add_free_passes<1>(lookup, passes_.data() + begin);
-  for_each_cell(at_least(lookup, 0), [&](std::size_t cell) {
+  add_free_passes(lookup, passes_.data() + begin);
+  for_each_cell(hit, [&](std::size_t cell) {
     const VoxelRecord& record = map.records[lookup[cell]];
     if (hits_[begin + cell] == 0) ++hit_cells_[slot];
     add_record(record, cell_at(begin + cell));
@@ -165,8 +168,8 @@ void FusedMap::subtract_brick(std::uint32_t slot, const BrickMapView& map, std::
                               const Int3& world_brick) {
   const std::int32_t* lookup = map.lookup_of(brick);
   const std::size_t begin = std::size_t{slot} * kBrickCells;
-  add_free_passes<-1>(lookup, passes_.data() + begin);
-  for_each_cell(at_least(lookup, 0), [&](std::size_t cell) {
+  subtract_free_passes(lookup, passes_.data() + begin);
+  for_each_cell(observed_in(lookup).hit, [&](std::size_t cell) {
     const VoxelRecord& record = map.records[lookup[cell]];
     const FusedCell fused = cell_at(begin + cell);
     const bool stale = subtract_record(record, fused);
@@ -201,46 +204,36 @@ void FusedMap::restore_minima(const Int3& brick, std::uint32_t slot) {
   stale_.clear();
 }
 
-VoxelBits FusedMap::read_bits(std::uint32_t slot) const {
-  const std::size_t begin = std::size_t{slot} * kBrickCells;
+void FusedMap::rebuild_masks(std::size_t z, std::uint32_t slot) {
+  const BrickCells cells = cells_of(slot);
   const bool shows = memory_.on() && memory_.shows_any(slot);
   VoxelBits bits{};
-  if (live_[slot] || shows) bits.free = at_least(passes_.data() + begin, 1);
-  if (hit_cells_[slot] > 0 || shows) {
-    bits.occupied = at_least(hits_.data() + begin, min_hits_);
-    const CellBits hit = at_least(hits_.data() + begin, 1);
-    for (std::size_t c = 0; c < hit.size(); ++c)
-      bits.free[c] = static_cast<std::uint8_t>((bits.free[c] | hit[c]) & ~bits.occupied[c]);
-  }
-  return bits;
-}
-
-void FusedMap::rebuild_masks(const Int3& brick, std::uint32_t slot) {
-  VoxelBits bits = read_bits(slot);
-  const CellBits* remembered = nullptr;
+  if (live_[slot] || shows) bits = voxel_bits(cells.hits, cells.passes, min_hits_);
+  CellBits seen = bits.occupied | bits.free;
   if (memory_.on()) {
-    memory_.show(slot, static_cast<std::uint32_t>(min_hits_), cells_of(slot), bits);
-    remembered = &memory_.shown(slot);
-    write_mask(brick, *remembered, remembered_);
+    memory_.show(slot, static_cast<std::uint32_t>(min_hits_), cells, bits);
+    seen = without(seen, memory_.shown(slot));
+    masks_.remembered.bricks[z] = memory_.shown(slot);
   }
-  write_mask(brick, bits.occupied, occupied_);
-  write_mask(brick, bits.free, free_);
-  unsigned any = 0;
-  for (std::size_t c = 0; c < bits.free.size(); ++c) {
-    const int seen = remembered != nullptr ? ~(*remembered)[c] : ~0;
-    any |= static_cast<unsigned>((bits.occupied[c] | bits.free[c]) & seen);
-  }
-  live_[slot] = any != 0;
+  live_[slot] = any_of(seen);
+  masks_.occupied.bricks[z] = bits.occupied;
+  masks_.free.bricks[z] = bits.free;
+  masks_.solid.bricks[z] = bits.solid;
+  masks_.change(z);
 }
 
-// A brick is eight bits of its columns' masks: byte z / 8 (little-endian, as all machines with CUDA are).
-void FusedMap::write_mask(const Int3& brick, const CellBits& bits, std::vector<std::uint64_t>& mask) const {
-  const std::size_t mask_bytes = static_cast<std::size_t>(words_) * sizeof(std::uint64_t);
-  auto* bytes = reinterpret_cast<std::uint8_t*>(mask.data()) + column_of(brick[0], brick[1], 0) * mask_bytes +
-                static_cast<std::size_t>(brick[2] - brick_origin(grid_, 2));
-  for (std::size_t y = 0; y < kBrickEdge; ++y)
-    for (std::size_t x = 0; x < kBrickEdge; ++x)
-      bytes[(y * static_cast<std::size_t>(grid_.size[0]) + x) * mask_bytes] = bits[x * kBrickEdge + y];
+void FusedMap::write_masks(const Stack& stack) {
+  if (!masks_.any_changed) return;
+  const std::size_t first = stack.first * static_cast<std::size_t>(words_);
+  const auto write = [&](const StackBits& bits, std::vector<std::uint64_t>& masks) {
+    for (int word = 0; word < words_; ++word)
+      write_words(bits.bricks.data() + std::ptrdiff_t{word} * kBrickEdge, masks_.changed[word],
+                  masks.data() + first + word, {words_, std::ptrdiff_t{grid_.size[0]} * words_});
+  };
+  write(masks_.occupied, occupied_);
+  write(masks_.free, free_);
+  write(masks_.solid, solid_);
+  if (memory_.on()) write(masks_.remembered, remembered_);
 }
 
 void FusedMap::reset() {
@@ -252,6 +245,7 @@ void FusedMap::reset() {
   std::fill(hit_cells_.begin(), hit_cells_.end(), 0);
   std::fill(occupied_.begin(), occupied_.end(), 0);
   std::fill(free_.begin(), free_.end(), 0);
+  std::fill(solid_.begin(), solid_.end(), 0);
   std::fill(remembered_.begin(), remembered_.end(), 0);
   if (memory_.on()) memory_.reset();
   std::fill(last_seen_ns_.begin(), last_seen_ns_.end(), kNeverSeen);

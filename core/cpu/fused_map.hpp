@@ -8,6 +8,7 @@
 
 #include "core/cell.hpp"
 #include "core/config.hpp"
+#include "core/cpu/column_masks.hpp"
 #include "core/cpu/huge_pages.hpp"
 #include "core/cpu/memory.hpp"
 #include "core/format/brick_map.hpp"
@@ -45,6 +46,18 @@ class FusedMap {
     bool moved_in_z;
   };
 
+  // A stack of bricks.
+  struct Stack {
+    std::int32_t bx, by;
+    std::size_t rays;   // where its columns begin in `lowest_ray_m_`
+    std::size_t first;  // its first column, of all [y][x]
+
+    // A column of it, of all [y][x].
+    [[nodiscard]] std::size_t column(int c, std::int32_t n_xy) const {
+      return first + static_cast<std::size_t>((c & 7) * n_xy + (c >> 3));
+    }
+  };
+
   // A voxel of one brick whose minimum left the window.
   struct StaleMinimum {
     std::uint32_t cell;
@@ -52,21 +65,22 @@ class FusedMap {
     float least_m;       // the minimum that left: none can be lower
   };
 
-  void update_brick_column(std::int32_t bx, std::int32_t by, const Change& change);
+  [[nodiscard]] Stack stack_at(std::int32_t bx, std::int32_t by) const;
+  void update_stack(const Stack& stack, const Change& change);
   bool update_brick(const Int3& brick, std::uint32_t slot, const Change& change);
   void remember_brick(const Int3& brick, std::uint32_t slot, const Change& change);
   void refill(const Int3& brick, std::uint32_t slot);
-  void add_brick(std::uint32_t slot, const BrickMapView& map, std::int32_t brick);
+  void add_brick(std::uint32_t slot, const BrickMapView& map, std::int32_t brick, const CellBits& hit);
   void subtract_brick(std::uint32_t slot, const BrickMapView& map, std::int32_t brick,
                       const Int3& world_brick);
   void restore_minima(const Int3& brick, std::uint32_t slot);
-  [[nodiscard]] VoxelBits read_bits(std::uint32_t slot) const;
-  void rebuild_masks(const Int3& brick, std::uint32_t slot);
-  void write_mask(const Int3& brick, const CellBits& bits, std::vector<std::uint64_t>& mask) const;
-  void update_last_seen(std::int32_t bx, std::int32_t by, const Change& change, bool all);
-  void refresh_last_seen(std::int32_t bx, std::int32_t by, std::uint64_t columns, std::int64_t newest_ns);
-  void update_lowest_ray(std::int32_t bx, std::int32_t by, const Change& change, bool all);
-  void refresh_lowest_ray(std::int32_t bx, std::int32_t by, std::uint64_t columns, float* lowest_m);
+  // @param z of the brick, from the lowest one on
+  void rebuild_masks(std::size_t z, std::uint32_t slot);
+  void write_masks(const Stack& stack);
+  void update_last_seen(const Stack& stack, const Change& change, bool all);
+  void refresh_last_seen(const Stack& stack, std::uint64_t columns, std::int64_t newest_ns);
+  void update_lowest_ray(const Stack& stack, const Change& change, bool all);
+  void refresh_lowest_ray(const Stack& stack, std::uint64_t columns, float* lowest_m);
   [[nodiscard]] std::uint64_t observed_columns(const BrickMapView& map, std::int32_t bx,
                                                std::int32_t by) const;
   BrickCells cells_of(std::uint32_t slot) {
@@ -77,9 +91,6 @@ class FusedMap {
   [[nodiscard]] std::uint32_t slot_of(const Int3& world_brick) const;
   // What the window says of the voxel at `i` of the arrays.
   [[nodiscard]] VoxelRecord window_voxel(std::size_t i) const;
-  /// Where the columns of a stack begin in `lowest_ray_m_`.
-  [[nodiscard]] std::size_t stack_of(std::int32_t bx, std::int32_t by) const;
-  [[nodiscard]] std::size_t column_of(std::int32_t bx, std::int32_t by, int column) const;
 
   Window window_;
   Grid grid_;
@@ -92,7 +103,9 @@ class FusedMap {
   std::vector<std::uint16_t> hit_cells_;  // per brick: voxels with hits in the window
   std::vector<std::uint64_t> occupied_;
   std::vector<std::uint64_t> free_;
+  std::vector<std::uint64_t> solid_;
   std::vector<std::uint64_t> remembered_;  // nothing in it where there is no memory
+  StackMasks masks_;
   std::vector<std::int64_t> last_seen_ns_;
   std::vector<float> lowest_ray_m_;  // column_in_stacks
   std::vector<StaleMinimum> stale_;

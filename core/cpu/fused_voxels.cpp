@@ -47,7 +47,7 @@ void FusedMap::write(const BrickMapArrays& out) const {
   for (std::int32_t by = 0, stack = 0; by < n[1]; ++by)
     for (std::int32_t bx = 0; bx < n[0]; ++bx, ++stack)
       std::copy_n(lowest_ray_m_.data() +
-                      stack_of(grid_.origin[0] / kBrickEdge + bx, grid_.origin[1] / kBrickEdge + by),
+                      stack_at(grid_.origin[0] / kBrickEdge + bx, grid_.origin[1] / kBrickEdge + by).rays,
                   kBrickColumns, out.lowest_ray_m + std::ptrdiff_t{stack} * kBrickColumns);
 }
 

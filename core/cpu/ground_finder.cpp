@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "core/cpu/clones.hpp"
+#include "core/cpu/stacks.hpp"
 
 namespace gvom::cpu {
 
@@ -125,18 +126,18 @@ void GroundFinder::find(const FusedView& map, const ColumnParameters& p, const L
 }
 
 void GroundFinder::read_columns(const FusedView& map, const ColumnParameters& p, const LayerArrays& out) {
-  for (std::int32_t y = 0, i = 0; y < grid_.n_xy; ++y)
-    for (std::int32_t x = 0; x < grid_.n_xy; ++x, ++i) {
-      const auto at = static_cast<std::size_t>(grid_.at(x, y));
-      const ColumnGround column = read_ground(map, p, x, y);
-      lowest_ray_m_[at] = column.lowest_ray_m;
-      ground_m_[at] = column.ground_m;
-      lowest_m_[at] = column.lowest_m;
-      out.inferred_height[i] = column.inferred_height;
-      out.last_seen[i] = column.last_seen;
-      out.flags[i] = column.assumed ? kAssumed : 0;
-      out.visibility[i] = static_cast<std::uint8_t>(visibility_of(column));
-    }
+  for_each_by_stacks(grid_.n_xy, [&](std::int32_t x, std::int32_t y) {
+    const auto at = static_cast<std::size_t>(grid_.at(x, y));
+    const std::int32_t i = y * grid_.n_xy + x;
+    const ColumnGround column = read_ground(map, p, x, y);
+    lowest_ray_m_[at] = column.lowest_ray_m;
+    ground_m_[at] = column.ground_m;
+    lowest_m_[at] = column.lowest_m;
+    out.inferred_height[i] = column.inferred_height;
+    out.last_seen[i] = column.last_seen;
+    out.flags[i] = column.assumed ? kAssumed : 0;
+    out.visibility[i] = static_cast<std::uint8_t>(visibility_of(column));
+  });
 }
 
 void GroundFinder::find_rims() {

@@ -66,6 +66,13 @@ GVOM_INLINE bool any_set(Ints<kLanes> value) {
 }
 
 template <int kLanes>
+GVOM_INLINE Ints<kLanes> load(const void* from) {
+  Ints<kLanes> lanes;
+  __builtin_memcpy(&lanes, from, sizeof lanes);
+  return lanes;
+}
+
+template <int kLanes>
 GVOM_INLINE void store(void* to, Ints<kLanes> lanes) {
   __builtin_memcpy(to, &lanes, sizeof lanes);
 }
@@ -84,7 +91,19 @@ template <int kLanes>
 std::uint32_t unequal(Ints<kLanes> a, Ints<kLanes> b);
 /// Bit i: it is less.
 template <int kLanes>
-std::uint32_t less(Ints<kLanes> a, Ints<kLanes> b);
+GVOM_INLINE std::uint32_t less(Ints<kLanes> a, Ints<kLanes> b) {
+  const Ints<kLanes> is_less = a < b;
+  std::uint32_t bits = 0;
+  for (int i = 0; i < kLanes; ++i) bits |= static_cast<std::uint32_t>(is_less[i] & 1) << i;
+  return bits;
+}
+
+#ifdef __SSE2__
+template <>
+GVOM_INLINE std::uint32_t less<4>(Ints<4> a, Ints<4> b) {
+  return static_cast<std::uint32_t>(__builtin_ia32_movmskps((Vectors<4>::Floats)(a < b)));
+}
+#endif
 
 // Of 8 and 16 lanes only. Builtins: an intrinsic has a target of its own and cannot be inlined into a
 // template.

@@ -19,29 +19,27 @@ GVOM_CLONES void add_passes(const std::uint16_t* passes, std::uint8_t beat, std:
   for (int i = 0; i < kBrickCells; ++i) cells[i] = with_passes(cells[i], passes[i], beat, now);
 }
 
-// Forgets what is older than `most` beats; the oldest age of the rest, or -1.
-GVOM_CLONES std::int32_t forget_hits(std::uint8_t now, std::int32_t most, RememberedHits* cells) {
-  std::int32_t oldest = -1;
+// Forgets what is older than `most` beats, a number with its beat in the low byte or 0; the oldest age of the
+// rest, or -1.
+GVOM_CLONES std::int32_t forget_old(std::uint8_t now, std::int16_t most, std::uint16_t* cells) {
+  std::int16_t oldest = -1;
   for (int i = 0; i < kBrickCells; ++i) {
-    const std::int32_t age = beats_between(cells[i].beat(), now);
-    const bool keeps = (static_cast<int>(cells[i].bits != 0) & static_cast<int>(age <= most)) != 0;
-    cells[i].bits = keeps ? cells[i].bits : 0;
-    const std::int32_t kept_age = keeps ? age : -1;
+    const auto age = static_cast<std::int16_t>((now - cells[i]) & 0xFF);
+    const bool keeps = (static_cast<int>(cells[i] != 0) & static_cast<int>(age <= most)) != 0;
+    cells[i] = keeps ? cells[i] : std::uint16_t{0};
+    const std::int16_t kept_age = keeps ? age : std::int16_t{-1};
     oldest = kept_age > oldest ? kept_age : oldest;
   }
   return oldest;
 }
 
-GVOM_CLONES std::int32_t forget_passes(std::uint8_t now, std::int32_t most, RememberedPasses* cells) {
-  std::int32_t oldest = -1;
-  for (int i = 0; i < kBrickCells; ++i) {
-    const std::int32_t age = beats_between(beat_in(cells[i]), now);
-    const bool keeps = (static_cast<int>(cells[i] != 0) & static_cast<int>(age <= most)) != 0;
-    cells[i] = keeps ? cells[i] : RememberedPasses{0};
-    const std::int32_t kept_age = keeps ? age : -1;
-    oldest = kept_age > oldest ? kept_age : oldest;
+// Of a map's brick: which passes tell something; its voxels are added to those of lower bricks.
+GVOM_CLONES void find_silent(const CellBits& hit, const CellBits& passed, CellBits& lower, CellBits& silent) {
+  GVOM_INDEPENDENT
+  for (std::size_t c = 0; c < silent.size(); ++c) {
+    silent[c] = static_cast<std::uint8_t>(passed[c] & ~telling_passes(hit[c], passed[c], lower[c] != 0));
+    lower[c] = static_cast<std::uint8_t>(lower[c] | hit[c] | passed[c]);
   }
-  return oldest;
 }
 
 GVOM_CLONES void age_no_further(std::uint8_t now, std::uint8_t most, std::size_t n, std::uint8_t* beats) {
@@ -61,12 +59,6 @@ GVOM_CLONES void lower_all(const float* from_m, std::size_t n, float* to_m) {
   for (std::size_t i = 0; i < n; ++i) to_m[i] = lower(to_m[i], from_m[i]);
 }
 
-void clear_cell(std::size_t cell, const BrickCells& cells) {
-  cells.hits[cell] = 0;
-  cells.passes[cell] = 0;
-  cells.min_height_m[cell] = kNoHeight_m;
-}
-
 }  // namespace
 
 Memory::Memory(const Grid& grid, const MemoryConfig& config, std::size_t most_maps)
@@ -75,7 +67,9 @@ Memory::Memory(const Grid& grid, const MemoryConfig& config, std::size_t most_ma
   left_.reserve(most_maps);
   const std::size_t bricks = grid.brick_slots();
   bricks_.resize(bricks);
+  hit_.resize(bricks);
   hits_.resize(bricks * kBrickCells, kNoHits);
+  hit_beats_.resize(bricks * kBrickCells);
   passes_.resize(bricks * kBrickCells);
   column_beats_.resize(grid.columns());
   spans_m_.resize(kSpans * std::size_t{grid.columns()}, kNoRay_m);
@@ -102,7 +96,7 @@ void Memory::begin(const Window& window) {
     const std::int64_t beat = beat_of(left.view.stamp_ns);
     const std::int64_t own_span = span_of(beat, beats_);
     float* const span_m = span - own_span < kSpans ? span_of_rays(own_span) : nullptr;
-    left_.push_back({&left.view, static_cast<std::uint8_t>(beat), now_ - beat > beats_, span_m, 0});
+    left_.push_back({&left.view, static_cast<std::uint8_t>(beat), now_ - beat > beats_, span_m, {}});
   }
 }
 
@@ -132,14 +126,15 @@ void Memory::begin_stack(std::int32_t bx, std::int32_t by, std::size_t stack, bo
   for (Left& left : left_) {
     const Grid& grid = left.map->grid;
     const std::int32_t low = grid.origin[2] / kBrickEdge;
-    std::uint64_t columns = 0;
-    left.lower = 0;
+    std::uint64_t columns = 0, lower = 0;
     for (std::int32_t bz = low; bz < low + grid.bricks()[2]; ++bz) {
       const std::int32_t brick = left.map->brick_at({bx, by, bz});
       if (brick < 0) continue;
       columns |= left.map->columns[brick];
-      if (bz < low_) left.lower |= left.map->columns[brick];
+      if (bz < low_) lower |= left.map->columns[brick];
     }
+    left.lower = {};
+    for (; lower != 0; lower &= lower - 1) left.lower[static_cast<std::size_t>(__builtin_ctzll(lower))] = 1;
     remember_beats(left, columns, stack);
     const std::int32_t own_stack = grid.stack_of_brick(bx, by);
     if (own_stack < 0 || left.span_m == nullptr) continue;
@@ -164,7 +159,8 @@ void Memory::forget(std::uint32_t slot) {
   Brick& brick = bricks_[slot];
   if (!brick.has_any) return;
   const std::size_t begin = std::size_t{slot} * kBrickCells;
-  std::fill_n(hits_.data() + begin, kBrickCells, kNoHits);
+  hit_[slot] = {};
+  std::fill_n(hit_beats_.data() + begin, kBrickCells, std::uint16_t{0});
   std::fill_n(passes_.data() + begin, kBrickCells, RememberedPasses{0});
   brick = {};
 }
@@ -172,20 +168,25 @@ void Memory::forget(std::uint32_t slot) {
 bool Memory::expire(std::uint32_t slot, const BrickCells& cells) {
   Brick& brick = bricks_[slot];
   if (!brick.has_any || !is_too_old(brick.oldest)) return false;
-  RememberedHits* const hits = hits_.data() + std::size_t{slot} * kBrickCells;
+  std::uint16_t* const hit_beats = hit_beats_.data() + std::size_t{slot} * kBrickCells;
   RememberedPasses* const passes = passes_.data() + std::size_t{slot} * kBrickCells;
-  const std::int32_t kept = all_too_old_ ? -1 : beats_;
-  const std::int32_t oldest = std::max(forget_hits(now(), kept, hits), forget_passes(now(), kept, passes));
+  const auto kept = static_cast<std::int16_t>(all_too_old_ ? -1 : beats_);
+  const std::int32_t oldest = std::max(forget_old(now(), kept, hit_beats), forget_old(now(), kept, passes));
   brick.has_any = oldest >= 0;
   brick.oldest = static_cast<std::uint8_t>(now_ - oldest);
-  bool any = false;
-  for_each_cell(brick.shown, [&](std::size_t cell) {
-    if (hits[cell].bits != 0 || passes[cell] != 0) return;
-    clear_cell(cell, cells);
-    brick.shown[cell / 8] &= static_cast<std::uint8_t>(~(1U << (cell % 8)));
-    any = true;
+  hit_[slot] = set_in(hit_beats);
+  const CellBits taken = without(brick.shown, hit_[slot] | set_in(passes));
+  take_back(brick, taken, cells);
+  return any_of(taken);
+}
+
+void Memory::take_back(Brick& brick, const CellBits& taken, const BrickCells& cells) {
+  brick.shown = without(brick.shown, taken);
+  for_each_cell(taken, [&](std::size_t cell) {
+    cells.hits[cell] = 0;
+    cells.passes[cell] = 0;
+    cells.min_height_m[cell] = kNoHeight_m;
   });
-  return any;
 }
 
 void Memory::note_beat(Brick& brick, std::uint8_t beat) {
@@ -193,66 +194,68 @@ void Memory::note_beat(Brick& brick, std::uint8_t beat) {
   brick.has_any = true;
 }
 
-void Memory::give_way(std::uint32_t slot, const std::int32_t* lookup, const BrickCells& cells) {
-  CellBits& shown = bricks_[slot].shown;
-  if (!any_of(shown)) return;
-  const CellBits hit = at_least(lookup, 0), not_passed = at_least(lookup, -1);
-  CellBits taken;
-  for (std::size_t c = 0; c < taken.size(); ++c) {
-    taken[c] = static_cast<std::uint8_t>(shown[c] & (hit[c] | ~not_passed[c]));
-    shown[c] = static_cast<std::uint8_t>(shown[c] & ~taken[c]);
-  }
-  for_each_cell(taken, [&](std::size_t cell) { clear_cell(cell, cells); });
+void Memory::give_way(std::uint32_t slot, const ObservedBits& observed, const BrickCells& cells) {
+  Brick& brick = bricks_[slot];
+  take_back(brick, brick.shown & (observed.hit | observed.passed), cells);
 }
 
 void Memory::remember(std::uint32_t slot, std::size_t i, std::int32_t brick) {
   Left& left = left_[i];
-  const BrickMapView& map = *left.map;
-  const std::int32_t* const lookup = map.lookup_of(brick);
-  const CellBits hit = at_least(lookup, 0), not_passed = at_least(lookup, -1);
+  const std::int32_t* const lookup = left.map->lookup_of(brick);
+  const ObservedBits observed = observed_in(lookup);
+  left_cells_ = left_cells_ | observed.hit | observed.passed;
   CellBits silent;  // passes that say nothing
-  for (std::size_t c = 0; c < hit.size(); ++c) {
-    const auto passed = static_cast<std::uint8_t>(~not_passed[c]);
-    left_cells_[c] = static_cast<std::uint8_t>(left_cells_[c] | hit[c] | passed);
-    silent[c] =
-        static_cast<std::uint8_t>(passed & ~telling_passes(hit[c], passed, (left.lower >> c & 1) != 0));
-  }
-  left.lower |= map.columns[brick];
+  find_silent(observed.hit, observed.passed, left.lower, silent);
   if (left.too_old) return;
   std::uint16_t passes[kBrickCells];
   read_passes(lookup, passes);
   for_each_cell(silent, [&](std::size_t cell) { passes[cell] = 0; });
-  const std::size_t begin = std::size_t{slot} * kBrickCells;
-  add_passes(passes, left.beat, now(), passes_.data() + begin);
-  for_each_cell(hit, [&](std::size_t cell) {
-    RememberedHits& hits = hits_[begin + cell];
-    hits = with_record(hits, map.records[lookup[cell]], left.beat, now());
-  });
+  add_passes(passes, left.beat, now(), passes_.data() + std::size_t{slot} * kBrickCells);
+  tell_hits(slot, left, lookup, observed.hit);
   note_beat(bricks_[slot], left.beat);
+}
+
+void Memory::tell_hits(std::uint32_t slot, const Left& left, const std::int32_t* lookup,
+                       const CellBits& hit) {
+  const std::size_t begin = std::size_t{slot} * kBrickCells;
+  for_each_cell(hit, [&](std::size_t cell) {
+    const RememberedHits had = has_bit(hit_[slot], cell) ? hits_[begin + cell] : kNoHits;
+    const RememberedHits hits = with_record(had, left.map->records[lookup[cell]], left.beat, now());
+    hits_[begin + cell] = hits;
+    hit_beats_[begin + cell] = static_cast<std::uint16_t>(0x100 | hits.beat());
+  });
+  hit_[slot] = hit_[slot] | hit;
 }
 
 void Memory::show(std::uint32_t slot, std::uint32_t min_hits, const BrickCells& cells, VoxelBits& bits) {
   const std::size_t begin = std::size_t{slot} * kBrickCells;
-  CellBits silent;
-  for (std::size_t c = 0; c < silent.size(); ++c)
-    silent[c] = static_cast<std::uint8_t>(left_cells_[c] & ~(bits.free[c] | bits.occupied[c]));
+  const CellBits unseen = without(left_cells_, bits.occupied | bits.free);
   left_cells_ = {};
-  for_each_cell(silent, [&](std::size_t cell) {
+  CellBits& shown = bricks_[slot].shown;
+  for_each_cell(unseen & hit_[slot], [&](std::size_t cell) {
     const VoxelRecord voxel = shown_voxel(hits_[begin + cell], passes_[begin + cell], now());
     if ((voxel.hits | voxel.passes) == 0) return;
     cells.hits[cell] = voxel.hits;
     cells.passes[cell] = voxel.passes;
     cells.min_height_m[cell] = voxel.min_height_m;
-    const auto bit = static_cast<std::uint8_t>(1U << (cell % 8));
-    bricks_[slot].shown[cell / 8] |= bit;
-    (is_occupied(voxel.hits, min_hits) ? bits.occupied : bits.free)[cell / 8] |= bit;
+    set_bit(shown, cell);
+    const bool occupied = is_occupied(voxel.hits, min_hits);
+    set_bit(occupied ? bits.occupied : bits.free, cell);
+    if (occupied && !is_worn(voxel.hits, voxel.passes)) set_bit(bits.solid, cell);
+  });
+  for_each_cell(without(unseen, hit_[slot]), [&](std::size_t cell) {
+    cells.passes[cell] = passes_in(passes_[begin + cell]);
+    if (cells.passes[cell] == 0) return;
+    set_bit(shown, cell);
+    set_bit(bits.free, cell);
   });
 }
 
 void Memory::reset() {
   empty_ = true;
   std::fill(bricks_.begin(), bricks_.end(), Brick{});
-  std::fill(hits_.begin(), hits_.end(), kNoHits);
+  std::fill(hit_.begin(), hit_.end(), CellBits{});
+  std::fill(hit_beats_.begin(), hit_beats_.end(), std::uint16_t{0});
   std::fill(passes_.begin(), passes_.end(), RememberedPasses{0});
   std::fill(spans_m_.begin(), spans_m_.end(), kNoRay_m);
   std::fill(lowest_ray_m_.begin(), lowest_ray_m_.end(), kNoRay_m);

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/cpu/cell_bits.hpp"
+#include "core/cpu/brick_cells.hpp"
 #include "core/cpu/huge_pages.hpp"
 #include "core/fused_view.hpp"
 #include "core/memory.hpp"
@@ -18,12 +18,6 @@ struct BrickCells {
   std::uint32_t* hits;
   std::uint32_t* passes;
   float* min_height_m;
-};
-
-/// What its voxels are (R8).
-struct VoxelBits {
-  CellBits occupied;
-  CellBits free;
 };
 
 class Memory {
@@ -43,8 +37,8 @@ class Memory {
   void forget(std::uint32_t slot);
   /// Forgets what is too old. True: some of that was shown.
   bool expire(std::uint32_t slot, const BrickCells& cells);
-  /// Takes back what is shown where a map observes something. @param lookup of the map's brick
-  void give_way(std::uint32_t slot, const std::int32_t* lookup, const BrickCells& cells);
+  /// Takes back what is shown where a map observes something.
+  void give_way(std::uint32_t slot, const ObservedBits& observed, const BrickCells& cells);
   /// Remembers the brick of the map that left as the `i`th.
   void remember(std::uint32_t slot, std::size_t i, std::int32_t brick);
   /// Shows what is remembered where a map that left had observed something and the window does not now, and
@@ -55,10 +49,11 @@ class Memory {
   [[nodiscard]] const CellBits& shown(std::uint32_t slot) const { return bricks_[slot].shown; }
   [[nodiscard]] bool shows_any(std::uint32_t slot) const { return any_of(bricks_[slot].shown); }
   [[nodiscard]] bool shows(std::size_t cell) const {
-    return (bricks_[cell / kBrickCells].shown[cell % kBrickCells / 8] >> (cell % 8) & 1) != 0;
+    return has_bit(bricks_[cell / kBrickCells].shown, cell % kBrickCells);
   }
   [[nodiscard]] MemoryView view(const std::uint64_t* remembered) const {
-    return {remembered, hits_.data(), passes_.data(), column_beats_.data(), lowest_ray_m_.data()};
+    return {remembered,           hits_.data(),        passes_.data(),   column_beats_.data(),
+            lowest_ray_m_.data(), hit_.data()->data(), hit_beats_.data()};
   }
 
   void reset();
@@ -74,8 +69,8 @@ class Memory {
     const BrickMapView* map;
     std::uint8_t beat;
     bool too_old;
-    float* span_m;        // of its rays, or nullptr
-    std::uint64_t lower;  // columns that it observed in lower bricks of the stack in work
+    float* span_m;   // of its rays, or nullptr
+    CellBits lower;  // of each column: voxels that it observed in lower bricks of the stack in work
   };
 
   [[nodiscard]] std::uint8_t now() const { return static_cast<std::uint8_t>(now_); }
@@ -88,6 +83,8 @@ class Memory {
   void forget_old_columns();
   void forget_old_spans(std::int64_t before, std::int64_t span);
   void note_beat(Brick& brick, std::uint8_t beat);
+  static void take_back(Brick& brick, const CellBits& taken, const BrickCells& cells);
+  void tell_hits(std::uint32_t slot, const Left& left, const std::int32_t* lookup, const CellBits& hit);
   void remember_beats(const Left& left, std::uint64_t columns, std::size_t stack);
 
   std::int32_t beats_;
@@ -98,7 +95,9 @@ class Memory {
   std::vector<Left> left_;
   CellBits left_cells_{};  // that maps which left had observed, of the brick in work
   std::vector<Brick> bricks_;
-  VoxelArray<RememberedHits> hits_;
+  std::vector<CellBits> hit_;            // per brick: voxels of which hits are remembered
+  VoxelArray<RememberedHits> hits_;      // of these
+  VoxelArray<std::uint16_t> hit_beats_;  // of these the beat and 1, from the low byte up; else 0
   VoxelArray<RememberedPasses> passes_;
   std::vector<std::uint8_t> column_beats_;
   std::vector<float> spans_m_;       // kSpans times, column_in_stacks

@@ -1,6 +1,7 @@
 #include "core/cpu/obstacle_finder.hpp"
 
 #include "core/cpu/clones.hpp"
+#include "core/cpu/stacks.hpp"
 
 namespace gvom::cpu {
 
@@ -30,21 +31,21 @@ ObstacleFinder::ObstacleFinder(std::int32_t n_xy) {
 
 void ObstacleFinder::read_columns(const FusedView& map, const WindowMaps& maps, const ColumnParameters& p,
                                   const ColumnGrid& grid, const LayerArrays& out) {
-  for (std::int32_t y = 0, i = 0; y < grid.n_xy; ++y)
-    for (std::int32_t x = 0; x < grid.n_xy; ++x, ++i) {
-      const auto at = static_cast<std::size_t>(grid.at(x, y));
-      sums_[at] = {};
-      low_[at] = 0;
-      out.obstacle_density[i] = out.clearance[i] = kUnknown;
-      if (std::isnan(out.height[i])) continue;
-      const ColumnObstacles column =
-          read_obstacles(map, maps, p, x, y, out.height[i], is_remembered(out.visibility[i]));
-      sums_[at] = column.sums;
-      lowest_[at] = column.lowest;
-      low_[at] = column.sums.low_hits > 0 ? 1 : 0;
-      out.obstacle_density[i] = column.density();
-      out.clearance[i] = column.clearance_m;
-    }
+  for_each_by_stacks(grid.n_xy, [&](std::int32_t x, std::int32_t y) {
+    const auto at = static_cast<std::size_t>(grid.at(x, y));
+    const std::int32_t i = y * grid.n_xy + x;
+    sums_[at] = {};
+    low_[at] = 0;
+    out.obstacle_density[i] = out.clearance[i] = kUnknown;
+    if (std::isnan(out.height[i])) return;
+    const ColumnObstacles column =
+        read_obstacles(map, maps, p, x, y, out.height[i], is_remembered(out.visibility[i]));
+    sums_[at] = column.sums;
+    lowest_[at] = column.lowest;
+    low_[at] = column.sums.low_hits > 0 ? 1 : 0;
+    out.obstacle_density[i] = column.density();
+    out.clearance[i] = column.clearance_m;
+  });
 }
 
 void ObstacleFinder::find(const FusedView& map, const WindowMaps& maps, const ColumnParameters& p,
