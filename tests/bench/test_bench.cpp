@@ -79,7 +79,7 @@ TEST_CASE("the GPU is measured beside the CPU") {
   const Json& kernels = run.at("kernels");
   for (const char* kernel : {"ClearTouched", "WriteColumns", "running sum"})
     check_times(kernels.at("a sweep, 64 x 64 x 32").at(kernel), 11);
-  CHECK(kernels.at("a tick, 64 x 64 x 32, window 2").size() == 10);
+  CHECK(kernels.at("a tick, 64 x 64 x 32, window 2").size() == 14);
   for (const char* kernel :
        {"ListChangedBricks", "UpdateBricks", "UpdateLastSeen", "UpdateLowestRays", "JudgeColumns"})
     check_times(kernels.at("a tick, 64 x 64 x 32, window 2").at(kernel), 4);
