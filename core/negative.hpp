@@ -57,14 +57,19 @@ class SightLine {
   bool by_x_;
 };
 
+/// Rims of so many steps, at least, say how ground goes on: of fewer, two groups far apart lie on one line
+/// whatever they are.
+inline constexpr std::int32_t kLeastSteps = 4;
+
 /// Least-squares line through rims, heights relative to one of them, over steps from that one on.
 struct RimLine {
   std::int32_t n = 0, k = 0, kk = 0;
   double z = 0, kz = 0, zz = 0;
+  std::int32_t steps = 0;  ///< That have a rim.
 
-  GVOM_HD void add(std::int32_t steps, double height_m) {
-    n += 1, k += steps, kk += steps * steps;
-    z += height_m, kz += steps * height_m, zz += height_m * height_m;
+  GVOM_HD void add(std::int32_t step, double height_m) {
+    n += 1, k += step, kk += step * step;
+    z += height_m, kz += step * height_m, zz += height_m * height_m;
   }
 };
 
@@ -76,8 +81,8 @@ struct RimFit {
 };
 
 GVOM_HD inline RimFit solve_rims(const RimLine& s) {
+  if (s.steps < kLeastSteps) return {0, 0, 0, false};
   const std::int32_t determinant = s.n * s.kk - s.k * s.k;
-  if (s.n < 3 || determinant <= 0) return {0, 0, 0, false};
   const double slope = (s.n * s.kz - s.k * s.z) / determinant;
   const double first = (s.z - slope * s.k) / s.n;
   const double squares = (s.zz - first * s.z) - slope * s.kz;
@@ -125,17 +130,20 @@ struct HoleParameters {
   PitDepths pits;
 };
 
-inline constexpr double kHoleShare = 0.16;  ///< Of `negative_threshold`.
-inline constexpr double kEdgeShare = 0.4;
-inline constexpr double kHolePerRange = 0.002;  ///< What attitude and sampling add, metres a metre.
+inline constexpr double kHoleShare = 0.08;  ///< Of `negative_threshold`.
+inline constexpr double kEdgeShare = 0.34;
+inline constexpr double kHolePerRange = 0.003;  ///< What attitude and sampling add, metres a metre.
 inline constexpr double kEdgePerRange = 0.004;
-inline constexpr double kUnevenness = 0.5;  ///< Of the rms of the rims.
+inline constexpr double kEdgeUnevenness = 2.5;  ///< Of the rms of the rims; of a hole's, all.
 inline constexpr double kEdgeSlope = 0.05;
 inline constexpr double kEdgeSlopePerLength_per_m = 0.01;
 inline constexpr double kMostRms_m = 0.1;
 inline constexpr double kMostSlope = 0.546;  ///< m/m, that of 0.5 rad.
-inline constexpr std::int32_t kNearSteps = 4, kFarSteps = 8, kMostSteps = 15, kBendSteps = 8;
-inline constexpr double kBend = 2;
+inline constexpr double kMostRise = 0.35;    ///< Of the ground before an edge, m/m.
+inline constexpr std::int32_t kNearSteps = 5, kFarSteps = 8, kBendSteps = 8;
+inline constexpr double kBend = 8;          ///< Times the bend that is seen, what an edge may still bend.
+inline constexpr double kSureBend = 0.4;    ///< Of the rms, a step: what isn't seen as a bend.
+inline constexpr double kMirrored_m = 0.3;  ///< A ray so far below ground that is seen was mirrored.
 inline constexpr std::int32_t kLeastNeighbours = 2;  ///< Of a hole's column that show one too.
 
 /// One column's search. Of the three columns of a step the middle one counts first, then the one before it
@@ -162,10 +170,10 @@ class HoleSearch {
   /// The ground that should be there, and how uneven it is.
   struct Near {
     RimFit fit;
-    std::int32_t steps;     ///< Looked at.
     std::int32_t last_rim;  ///< Steps from the first one.
   };
 
+  /// The first rim towards the vehicle; no ray that went below it says anything.
   GVOM_HD bool find_rim() {
     const std::int32_t most = p_.reach < line_.columns() ? p_.reach : line_.columns();
     for (rim_steps_ = 1; rim_steps_ <= most; ++rim_steps_) {
@@ -174,7 +182,7 @@ class HoleSearch {
       const std::int32_t rim = is_rim(at) ? at : is_rim(at - beside_) ? at - beside_ : at + beside_;
       if (!is_rim(rim)) continue;
       rim_m_ = static_cast<double>(view_.ground_m[rim]);
-      return true;
+      return !(rim_m_ - static_cast<double>(view_.lowest_ray_m[rim]) > kMirrored_m);
     }
     return false;
   }
@@ -190,15 +198,16 @@ class HoleSearch {
     const std::int32_t columns[3] = {middle, middle - beside_, middle + beside_};
     for (const std::int32_t at : columns)
       if (is_rim(at)) line.add(k, static_cast<double>(view_.ground_m[at]) - rim_m_);
+    line.steps += line.n > before ? 1 : 0;
     return line.n > before;
   }
 
   GVOM_HD Near near_line() const {
     RimLine line;
-    std::int32_t k = 0, last = 0;
-    for (; k <= kNearSteps || (line.n < 3 && k <= kMostSteps); ++k)
+    std::int32_t last = 0;
+    for (std::int32_t k = 0; k < kNearSteps; ++k)
       if (add_rims(line, rim_steps_ + k, k)) last = k;
-    return {solve_rims(line), k, last};
+    return {solve_rims(line), last};
   }
 
   /// A hole: ground beyond it, whose line begins at the first ground there, and the rim on this side.
@@ -206,16 +215,15 @@ class HoleSearch {
     const std::int32_t far = first_ground_beyond();
     if (far == 0) return 0;
     RimLine line;
-    for (std::int32_t k = 1; k <= kFarSteps || (line.n < 3 && k <= kMostSteps); ++k)
-      add_rims(line, -(far + k), k);
-    if (is_surely_lower(line, far)) return 0;
+    for (std::int32_t k = 1; k <= kFarSteps; ++k) add_rims(line, -(far + k), k);
+    if (line.steps < kLeastSteps || is_surely_lower(line, far)) return 0;
     const RimFit fit = solve_rims(line);
     if (!fits(fit)) return 0;
     const double expected = rim_m_ + fit.at_first_m * rim_steps_ / (rim_steps_ + far);
     const double depth = expected - lowest_m_;
     const double even = p_.hole_m + kHolePerRange * range_m();
     if (!(depth > even)) return 0;
-    return depth > even + kUnevenness * (fit.rms_m + near_line().fit.rms_m) ? depth : 0;
+    return depth > even + (fit.rms_m + near_line().fit.rms_m) ? depth : 0;
   }
 
   /// Whether the ground beyond is so low that no hole can show, however the last bits are rounded: nearly
@@ -242,12 +250,12 @@ class HoleSearch {
   GVOM_HD double edge_depth_m() const {
     if (rim_steps_ > p_.edge_reach || !(rim_m_ - lowest_m_ > p_.edge_m)) return 0;
     const Near near = near_line();
-    if (!fits(near.fit)) return 0;
+    if (!fits(near.fit) || near.fit.slope_per_step < -(kMostRise * step_m())) return 0;
     const double slope = slope_behind(near);
     const double rim_m = rim_m_ + (near.fit.at_first_m < 0 ? near.fit.at_first_m : 0);
     const double expected = rim_m + (slope < 0 ? slope : 0) * rim_steps_;
     const double depth = expected - lowest_m_;
-    const double flat = (p_.edge_m + kEdgePerRange * range_m()) + kUnevenness * near.fit.rms_m;
+    const double flat = (p_.edge_m + kEdgePerRange * range_m()) + kEdgeUnevenness * near.fit.rms_m;
     const double most_slope = kEdgeSlope + kEdgeSlopePerLength_per_m * (near.last_rim * step_m());
     const double steep = most_slope * (rim_steps_ * step_m());
     return depth > (flat > steep ? flat : steep) ? depth : 0;
@@ -257,10 +265,10 @@ class HoleSearch {
   /// it.
   GVOM_HD double slope_behind(const Near& near) const {
     RimLine line;
-    for (std::int32_t k = near.steps; k < near.steps + kBendSteps; ++k) add_rims(line, rim_steps_ + k, k);
+    for (std::int32_t k = kNearSteps; k < kNearSteps + kBendSteps; ++k) add_rims(line, rim_steps_ + k, k);
     const RimFit earlier = solve_rims(line);
     const double slope = -near.fit.slope_per_step;
-    const double bend = -earlier.slope_per_step - slope;
+    const double bend = (-earlier.slope_per_step - slope) - kSureBend * near.fit.rms_m;
     return earlier.defined && bend > 0 ? slope - kBend * bend : slope;
   }
 

@@ -77,7 +77,7 @@ const std::vector<VehicleRow>& vehicle_rows() {
         "how far a hole's rim and the ground beyond are searched; an edge's two fifths of it (R13)"},
        [](V& c) -> Field { return &c.mapper.layers.search_distance; }},
       {{"layers.negative_threshold_m", "m", Rule::range, 0, 20, kOptional,
-        "depth of a hole that matters: 0.16 of it must show, 0.4 behind an edge, plus noise (R13)"},
+        "depth of a hole that matters: 0.08 of it must show, 0.34 behind an edge, plus noise (R13)"},
        [](V& c) -> Field { return &c.mapper.layers.negative_threshold_m; }},
 
       {{"cost.soft_weight", "", Rule::range, 0, 1000, kOptional,

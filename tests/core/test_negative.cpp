@@ -103,14 +103,14 @@ TEST_CASE("A ditch is as deep as its far wall is seen") {
   CHECK(rig.column(7.75, 0.25).cost == 254);
 }
 
-TEST_CASE("A drop must show by more than 0.16 of the depth that matters, and noise") {
+TEST_CASE("A drop must show by more than 0.08 of the depth that matters, and noise") {
   MapperConfig config = half_metre_map();
-  config.layers.negative_threshold_m = 2.0;  // 0.32 m, and 0.015 m for 7.5 m of range
+  config.layers.negative_threshold_m = 4.0;  // 0.32 m, and 0.023 m for 7.5 m of range
   Rig strict(config);
   strict.see(scan({0, 0, 0}, [](double x, double) { return ditch_z_m(x); }));
   const Places found = strict.flagged(kNegative);
   CHECK_FALSE(holds(found, 6.75, 0.25));  // 0.22 m down at most
-  for (const auto& at : found) CHECK(strict.column(at[0], at[1]).negative_delta > 0.335f);
+  for (const auto& at : found) CHECK(strict.column(at[0], at[1]).negative_delta > 0.342f);
 }
 
 TEST_CASE("The edge of a cliff shows by rays below level") {
@@ -135,6 +135,62 @@ TEST_CASE("A crest that bends gently is no edge") {
   const auto crest = [](double x, double) { return x < 4 ? 0.0 : std::max(-(x - 4) * (x - 4) / 40, -6.0); };
   Rig rig = rig_on(crest);
   CHECK(rig.column(12.25, 0.25).visibility == 1);
+  CHECK(rig.flagged(kNegative).empty());
+}
+
+TEST_CASE("A ramp of 15 degrees that begins with a curve is no edge") {
+  // A circle of 8 m: two metres of curve. Seen from eight places it is hidden behind its own beginning.
+  const auto ramp = [](double x, double) {
+    const double curve_m = std::min(x - 10, 8 * 0.268);
+    return x < 10 ? 0.0 : std::max(-curve_m * curve_m / 16 - 0.268 * (x - 10 - curve_m), -3.0);
+  };
+  Rig rig;
+  for (int i = 0; i < 8; ++i)
+    rig.see(scan({0.37 * i, 0, 0}, ramp), 1'000'000'000 + i * 100'000'000, {0.37 * i, 0, 0});
+  CHECK(rig.column(12.75, 0.25).visibility == 1);
+  CHECK(rig.flagged(kNegative).empty());
+}
+
+// Ground that rises to x = 2.5 m, and rays that pass closely over its end.
+Places found_behind_rise(double slope) {
+  Points points;
+  const double over_m = 1.25 - (2.5 * slope + 0.02);
+  for (const double y : {-0.75, -0.25, 0.25, 0.75}) {
+    for (double x = -1.75; x < 2.5; x += 0.5) points.emplace_back(x, y, slope * x);
+    points.emplace_back(6.75, y, 1.25 - over_m * 6.75 / 2.5);
+  }
+  Rig rig;
+  rig.see(points);
+  return rig.flagged(kNegative);
+}
+
+TEST_CASE("Behind ground that rises by 0.3 there is an edge, behind steeper ground none") {
+  CHECK(holds(found_behind_rise(0.3), 6.25, 0.25));
+  CHECK(found_behind_rise(0.36).empty());
+}
+
+TEST_CASE("A car's hood beside the vehicle is no edge though the road before it isn't seen") {
+  Points points;
+  for (double y = -2.75; y < 3; y += 0.5) {
+    for (const double x : {3.25, 3.75, 4.25}) points.emplace_back(x, y, 0.6);
+    points.emplace_back(8.25, y, 0.05);
+  }
+  Rig rig;
+  rig.see(points);
+  CHECK(rig.column(6.75, 0.25).visibility == 1);
+  CHECK(rig.flagged(kNegative).empty());
+}
+
+TEST_CASE("A ray that ran below ground that is seen on its way was mirrored: there is no hole") {
+  Points ground;
+  for (const Eigen::Vector3d& p : floor_points(-2, 14, -3, 3))
+    if (p.x() < 5 || p.x() > 8) ground.push_back(p);
+  Points mirrored;
+  for (const double y_m : {-0.75, -0.25, 0.25, 0.75}) mirrored.emplace_back(7.9, y_m, -2.5);
+  Rig rig;
+  rig.see(ground + ground + ground + mirrored);
+  CHECK(rig.column(4.75, 0.25).visibility == 3);
+  CHECK(rig.column(6.25, 0.25).visibility == 1);
   CHECK(rig.flagged(kNegative).empty());
 }
 

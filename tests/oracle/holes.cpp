@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <set>
 #include <vector>
 
 namespace gvom::oracle {
@@ -20,15 +21,17 @@ struct Fit {
   double slope_m = 0, first_m = 0, rms_m = 0;
 
   explicit Fit(const std::vector<RimHeight>& rims) {
+    std::set<int> places;
     std::int64_t n = 0, k = 0, kk = 0;
     double z = 0, kz = 0, zz = 0;
     for (const RimHeight& rim : rims) {
+      places.insert(rim.k);
       n += 1, k += rim.k, kk += std::int64_t{rim.k} * rim.k;
       z += rim.z_m, kz += rim.k * rim.z_m, zz += rim.z_m * rim.z_m;
     }
-    const std::int64_t determinant = n * kk - k * k;
-    defined = n >= 3 && determinant > 0;
+    defined = places.size() >= 4;
     if (!defined) return;
+    const std::int64_t determinant = n * kk - k * k;
     slope_m = (double(n) * kz - double(k) * z) / double(determinant);
     first_m = (z - slope_m * double(k)) / double(n);
     rms_m = std::sqrt(std::max((zz - first_m * z - slope_m * kz) / double(n), 0.0));
@@ -48,13 +51,14 @@ class Search {
         line_(column, vehicle),
         step_m_(line_.step_m(map.config.map.resolution_xy_m)),
         range_m_(line_.length() * step_m_),
+        lowest_rays_m_(map.lowest_ray_m),
         lowest_ray_m_(double{map.lowest_ray_m.at(column.x, column.y)}) {}
 
   // The larger difference that shows, or 0.
   double depth_m() {
-    if (!find_rim()) return 0;
+    if (!find_rim() || mirrored_) return 0;
     std::vector<RimHeight> near;
-    near_steps_ = collect(near, 0, 4, [&](int k) { return rim_step_ + k; });
+    for (int k = 0; k <= 4; ++k) add_rims(near, k, rim_step_ + k);
     const Fit near_line(near);
     const double reached_m = near.back().k * step_m_;
     return std::max(hole_m(near_line), edge_m(near_line, reached_m));
@@ -67,6 +71,7 @@ class Search {
         if (ground_.rim.at(at.x, at.y) == YesNo::no) continue;
         rim_step_ = step;
         rim_m_ = double{ground_.known_m.at(at.x, at.y)};
+        mirrored_ = rim_m_ - double{lowest_rays_m_.at(at.x, at.y)} > 0.3;
         return true;
       }
     return false;
@@ -76,14 +81,6 @@ class Search {
     for (const ColumnAt& at : line_.abreast(step))
       if (ground_.rim.at(at.x, at.y) == YesNo::yes)
         rims.push_back({k, double{ground_.known_m.at(at.x, at.y)} - rim_m_});
-  }
-
-  // From `first` to `last`, and on to 15 while there are fewer than three. Returns where it ended.
-  template <class Step>
-  int collect(std::vector<RimHeight>& rims, int first, int last, Step&& step) const {
-    int k = first;
-    for (; k <= last || (k <= 15 && rims.size() < 3); ++k) add_rims(rims, k, step(k));
-    return k;
   }
 
   [[nodiscard]] int first_ground_beyond() const {
@@ -97,23 +94,24 @@ class Search {
     const int beyond = first_ground_beyond();
     if (beyond == 0) return 0;
     std::vector<RimHeight> rims;
-    collect(rims, 1, 8, [&](int k) { return -(beyond + k); });
+    for (int k = 1; k <= 8; ++k) add_rims(rims, k, -(beyond + k));
     const Fit far(rims);
     if (!far.good(step_m_)) return 0;
     const double due_m = rim_m_ + far.first_m * rim_step_ / (rim_step_ + beyond);
-    const double shows_m = 0.16 * threshold_m_ + 0.002 * range_m_ + 0.5 * (far.rms_m + near.rms_m);
+    const double shows_m = 0.08 * threshold_m_ + 0.003 * range_m_ + (far.rms_m + near.rms_m);
     return due_m - lowest_ray_m_ > shows_m ? due_m - lowest_ray_m_ : 0;
   }
 
   [[nodiscard]] double edge_m(const Fit& near, double reached_m) const {
-    if (rim_step_ > 2 * reach_ / 5 || !near.good(step_m_)) return 0;
+    if (rim_step_ > 2 * reach_ / 5 || !near.good(step_m_) || near.slope_m < -(0.35 * step_m_)) return 0;
     std::vector<RimHeight> rims;
-    for (int k = near_steps_; k < near_steps_ + 8; ++k) add_rims(rims, k, rim_step_ + k);
+    for (int k = 0; k <= 7; ++k) add_rims(rims, 5 + k, rim_step_ + 5 + k);
     const Fit earlier(rims);
     double away_m = -near.slope_m;
-    if (earlier.defined && -earlier.slope_m > away_m) away_m = away_m - 2 * (-earlier.slope_m - away_m);
+    const double bend_m = (-earlier.slope_m - away_m) - 0.4 * near.rms_m;
+    if (earlier.defined && bend_m > 0) away_m = away_m - 8 * bend_m;
     const double due_m = rim_m_ + std::min(near.first_m, 0.0) + std::min(away_m, 0.0) * rim_step_;
-    const double level_m = 0.4 * threshold_m_ + 0.004 * range_m_ + 0.5 * near.rms_m;
+    const double level_m = 0.34 * threshold_m_ + 0.004 * range_m_ + 2.5 * near.rms_m;
     const double carried_m = (0.05 + 0.01 * reached_m) * (rim_step_ * step_m_);
     return due_m - lowest_ray_m_ > std::max(level_m, carried_m) ? due_m - lowest_ray_m_ : 0;
   }
@@ -122,9 +120,12 @@ class Search {
   int reach_;
   double threshold_m_;
   SightLine line_;
-  double step_m_, range_m_, lowest_ray_m_;
-  int rim_step_ = 0, near_steps_ = 0;
+  double step_m_, range_m_;
+  const Columns<float>& lowest_rays_m_;
+  double lowest_ray_m_;
+  int rim_step_ = 0;
   double rim_m_ = 0;
+  bool mirrored_ = false;
 };
 
 // Seen or assumed ground below the rims on both sides of it.
