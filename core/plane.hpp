@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "core/arctangent.hpp"
+#include "core/format/layers.hpp"
 #include "core/format/platform.hpp"
 
 namespace gvom {
@@ -71,10 +72,32 @@ GVOM_HD inline double least_spread(const PlaneSums& s) {
   return (cxx < cyy ? cxx : cyy) / n;
 }
 
+/// What ground a column gives to a plane: bits of a byte.
+enum Source : std::uint8_t { kNoGround = 0, kGroundNow = 1, kGroundRemembered = 2 };
+
+/// Of a column with ground, by its layer `visibility`.
+GVOM_HD inline Source source_of_ground(std::uint8_t visibility) {
+  return is_remembered(visibility) ? kGroundRemembered : kGroundNow;
+}
+
+/// Of ground of two times (R17) a plane may lean by so much without leaning, m/m: the odometry has drifted.
+inline constexpr double kSeamSlope = 0.25;
+
+/// Whether some of a plane's columns have ground of now, and some ground that is remembered.
+/// @param source(dx, dy) of `Source`
+template <class SourceOf>
+GVOM_HD bool is_seam(std::int32_t radius, SourceOf&& source) {
+  unsigned sources = kNoGround;
+  for (std::int32_t dy = -radius; dy <= radius; ++dy)
+    for (std::int32_t dx = -radius; dx <= radius; ++dx) sources |= source(dx, dy);
+  return sources == (kGroundNow | kGroundRemembered);
+}
+
 /// The layers of a fitted plane (R12). It is steep if its slope is, and that slope less its standard error:
-/// uneven ground is rough, not steep.
-GVOM_HD inline Plane plane_layers(const PlaneFit& fit, const PlaneSums& sums, double squares_m2,
-                                  double resolution_m, double threshold_rad) {
+/// uneven ground is rough, not steep. @param is_seam() whether its ground is of two times
+template <class IsSeam>
+GVOM_HD Plane plane_layers(const PlaneFit& fit, const PlaneSums& sums, double squares_m2, double resolution_m,
+                           double threshold_rad, IsSeam&& is_seam) {
   if (!fit.defined) return {kUnknown, kUnknown, kUnknown, kUnknown, false};
   const double slope_x = fit.a / resolution_m, slope_y = fit.b / resolution_m;
   const double slope = std::sqrt(slope_x * slope_x + slope_y * slope_y);
@@ -82,7 +105,9 @@ GVOM_HD inline Plane plane_layers(const PlaneFit& fit, const PlaneSums& sums, do
   const double slope_rad = arctangent(slope);
   const auto steep = [&] {
     const double least = slope - std::sqrt(roughness / least_spread(sums)) / resolution_m;
-    return least > 0 && arctangent(least) >= threshold_rad;
+    if (!(least > 0 && arctangent(least) >= threshold_rad)) return false;
+    const double over_seam = least - kSeamSlope;
+    return (over_seam > 0 && arctangent(over_seam) >= threshold_rad) || !is_seam();
   };
   return {static_cast<float>(slope_x), static_cast<float>(slope_y), static_cast<float>(slope_rad),
           static_cast<float>(roughness), slope_rad >= threshold_rad && steep()};

@@ -106,9 +106,14 @@ void PlaneFitter::fit(const ColumnParameters& p, const GroundView& ground, const
       const PlaneFit fit{fits_.a[x], fits_.b[x], fits_.c[x], fits_.defined[x] != 0};
       const PlaneSums sums{sums_.n[x],  sums_.x[x], sums_.y[x],  sums_.xx[x], sums_.xy[x],
                            sums_.yy[x], sums_.z[x], sums_.xz[x], sums_.yz[x]};
-      const Plane plane =
-          plane_layers(fit, sums, fits_.squares_m2[x], p.resolution_xy_m, p.layers.slope_threshold_rad);
       const std::ptrdiff_t i = y * n_xy_ + x;
+      const auto source = [&](std::int32_t dx, std::int32_t dy) {
+        if (std::isnan(centre[x + dy * width + dx])) return kNoGround;
+        return source_of_ground(out.visibility[i + std::ptrdiff_t{dy} * n_xy_ + dx]);
+      };
+      const Plane plane =
+          plane_layers(fit, sums, fits_.squares_m2[x], p.resolution_xy_m, p.layers.slope_threshold_rad,
+                       [&] { return is_seam(radius_, source); });
       out.slope_x[i] = plane.slope_x;
       out.slope_y[i] = plane.slope_y;
       out.slope[i] = plane.slope;

@@ -198,7 +198,7 @@ struct JudgeColumns {
   __device__ void operator()(std::int32_t i) const {
     const LayerArrays& out = tick->out;
     const std::int32_t x = columns.x(i), y = columns.y(i), at = columns.at(i);
-    const Plane plane = fit(at);
+    const Plane plane = fit(i);
     out.slope_x[i] = plane.slope_x;
     out.slope_y[i] = plane.slope_y;
     out.slope[i] = plane.slope;
@@ -241,9 +241,9 @@ struct JudgeColumns {
                           columns.lowest_obstacle[at]);
   }
 
-  [[nodiscard]] __device__ Plane fit(std::int32_t at) const {
+  [[nodiscard]] __device__ Plane fit(std::int32_t i) const {
     const ColumnParameters& p = tick->parameters;
-    const float* middle_m = columns.plane_m + at;
+    const float* middle_m = columns.plane_m + columns.at(i);
     const std::int32_t radius = p.layers.plane_size / 2, pitch = columns.grid.pitch();
     PlaneSums sums{};
     for (std::int32_t dy = -radius; dy <= radius; ++dy)
@@ -253,7 +253,12 @@ struct JudgeColumns {
     for (std::int32_t dy = -radius; dy <= radius; ++dy)
       for (std::int32_t dx = -radius; dx <= radius; ++dx)
         squares_m2 += squared_residual(fit, dx, dy, middle_m[dy * pitch + dx]);
-    return plane_layers(fit, sums, squares_m2, p.resolution_xy_m, p.layers.slope_threshold_rad);
+    const auto source = [&](std::int32_t dx, std::int32_t dy) {
+      if (std::isnan(middle_m[dy * pitch + dx])) return kNoGround;
+      return source_of_ground(tick->out.visibility[i + dy * columns.grid.n_xy + dx]);
+    };
+    return plane_layers(fit, sums, squares_m2, p.resolution_xy_m, p.layers.slope_threshold_rad,
+                        [&] { return is_seam(radius, source); });
   }
 };
 

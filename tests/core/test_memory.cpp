@@ -58,6 +58,27 @@ TEST_CASE("Ground stays where rays only graze it, until one goes below it") {
   CHECK(rig.column(7.75, 0.25).visibility == 1);
 }
 
+TEST_CASE("Where ground of two times meets, a slope is not steep by a drift between them") {
+  // 0.4 m/m, seen again 0.2 m higher beyond y = 0: 0.6 m/m there, less an error of 0.04; 0.5 rad is 0.546
+  // m/m.
+  const auto hillside = [](double low_m, double slope, double drift_m) {
+    return surface(1, 4, low_m, 3, [&](double, double y) { return slope * y + (y > 0 ? drift_m : 0); });
+  };
+  const auto flags = [&](double slope, double drift_m) {
+    Rig rig(remembering(20));
+    rig.see(hillside(-3, slope, 0), kBeat_ns);
+    for (const std::int64_t later : {1, 2}) rig.see(hillside(0, slope, drift_m), 3 * kBeat_ns + later);
+    REQUIRE(rig.column(2.25, -0.25).visibility == 4);
+    REQUIRE(rig.column(2.25, 0.25).visibility == 3);
+    return rig.column(2.25, 0.25).flags;
+  };
+  CHECK(flags(0.4, 0.2) == 0);
+  CHECK(flags(0.8, 0) == kSteep);
+  Rig at_once(remembering(20));
+  at_once.see(hillside(-3, 0.4, 0.2), kBeat_ns);
+  CHECK(at_once.column(2.25, 0.25).flags == kSteep);
+}
+
 TEST_CASE("A column through which rays only passed is remembered as that") {
   Rig rig(remembering(20));
   rig.see({{8.25, 0.25, 1.25}, {8.25, 0.25, 0.75}}, kBeat_ns);

@@ -29,7 +29,7 @@ Plane fit(const Patch& patch, double resolution_m, double threshold_rad = 0.5) {
   const PlaneFit plane = solve_plane(sums);
   double squares_m2 = 0;
   patch.each([&](int dx, int dy, float z_m) { squares_m2 += squared_residual(plane, dx, dy, z_m); });
-  return plane_layers(plane, sums, squares_m2, resolution_m, threshold_rad);
+  return plane_layers(plane, sums, squares_m2, resolution_m, threshold_rad, [] { return false; });
 }
 
 // Slopes in x and y and the mean squared residual, by a decomposition in long double.

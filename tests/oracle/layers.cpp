@@ -40,7 +40,8 @@ void fit_plane(const MapperConfig& config, const Ground& ground, int x, int y, L
   for (int dy = -reach; dy <= reach; ++dy)
     for (int dx = -reach; dx <= reach; ++dx)
       if (ground.known_m.at(x + dx, y + dy) < INFINITY && ground.height_m.at(x + dx, y + dy) < INFINITY)
-        heights.push_back({dx, dy, double{ground.height_m.at(x + dx, y + dy)}});
+        heights.push_back({dx, dy, double{ground.height_m.at(x + dx, y + dy)},
+                           out.visibility[out.index(x + dx, y + dy)] == 4});
   const PlaneValues plane =
       plane_through(heights, config.map.resolution_xy_m, config.layers.slope_threshold_rad);
   const std::size_t i = out.index(x, y);

@@ -67,7 +67,10 @@ PlaneValues plane_through(const std::vector<HeightAt>& heights, double resolutio
   const double steepness = std::sqrt(along_x * along_x + along_y * along_y);
   const double roughness = squares_m2 / exact(w.n);
   const double spread = exact(std::min(xx, yy)) / exact(w.n);
-  const double surely = steepness - std::sqrt(roughness / spread) / resolution_m;
+  const auto remembered =
+      std::count_if(heights.begin(), heights.end(), [](const HeightAt& h) { return h.remembered; });
+  const bool of_two_times = remembered > 0 && remembered < w.n;
+  const double surely = steepness - std::sqrt(roughness / spread) / resolution_m - (of_two_times ? 0.25 : 0);
   const double slope = angle_of(steepness);
   return {static_cast<float>(along_x), static_cast<float>(along_y), static_cast<float>(slope),
           static_cast<float>(roughness),

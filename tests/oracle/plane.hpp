@@ -10,6 +10,7 @@ struct HeightAt {
   int dx;
   int dy;
   double z_m;
+  bool remembered;
 };
 
 /// Unknown values are NaN.
