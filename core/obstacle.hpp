@@ -13,11 +13,13 @@
 namespace gvom {
 
 inline constexpr std::uint32_t kLeastHits = 4;     ///< Of obstacle voxels in the 3 x 3 columns.
-inline constexpr double kLeastDensity = 0.0625;    ///< Of these, less one hit each: dust is thinner.
+inline constexpr double kLeastDensity = 0.05;      ///< Of these, less one hit each: dust is thinner.
+inline constexpr double kSureHits = 0.64;          ///< Variances by which that must be exceeded: 0.8 errors.
 inline constexpr std::uint32_t kShadowHits = 10;   ///< In the 3 x 3 columns, for what casts a shadow.
 inline constexpr double kLowObstacle_m = 0.1;      ///< Hits so far below an obstacle's height may cast it.
 inline constexpr std::int32_t kShadowColumns = 4;  ///< Behind the column.
 inline constexpr std::int32_t kLeastDark = 2;      ///< Of these, behind what is high.
+inline constexpr double kGradualDensity = 0.25;    ///< Of what casts a high shadow that begins gradually.
 inline constexpr double kLowShadow = 0.7;  ///< Of `min_obstacle_height`: so high is a low one's at least.
 inline constexpr double kFalls_m = 0.2;    ///< So much lower is its end.
 
@@ -183,6 +185,15 @@ class Shadow {
     return dark >= kLeastDark;
   }
 
+  /// Rays were kept up to the height of an obstacle from this column, the next one, or one abreast of these:
+  /// a face. In a bush fewer and fewer come down.
+  [[nodiscard]] GVOM_HD bool begins_at_once() const {
+    for (std::int32_t behind = 0; behind <= 1; ++behind)
+      for (std::int32_t aside = -beside_; aside <= beside_; aside += beside_)
+        if (height_m(at_[behind] + aside) >= obstacle_m_) return true;
+    return false;
+  }
+
   /// Rays were kept from this column and the next one, or from two abreast of these, up to most of the height
   /// of an obstacle, and come down again behind: there is a rock. Behind a bush fewer and fewer come down.
   [[nodiscard]] GVOM_HD bool is_low() const {
@@ -210,22 +221,40 @@ class Shadow {
   bool in_grid_;
 };
 
+/// Hits and rays of the 3 x 3 columns, less a hit for each voxel: that for which it is looked at at all.
+struct Spare {
+  double hits, rays;
+
+  GVOM_HD explicit Spare(const ObstacleSums& around)
+      : hits(static_cast<double>(around.hits) - around.voxels),
+        rays(static_cast<double>(around.rays) - around.voxels) {}
+
+  [[nodiscard]] GVOM_HD bool reaches(double density) const { return hits >= density * rays; }
+
+  /// Surely no dust: the share of few hits is uncertain by their root.
+  [[nodiscard]] GVOM_HD bool is_surely_thick() const {
+    const double over = hits - kLeastDensity * rays;
+    return over > 0 && over * over >= kSureHits * hits;
+  }
+};
+
 /// Flags of a column with known ground (R11). @param own its own sums, @param around those of the 3 x 3
 /// columns, @param lowest its lowest obstacle voxel
 GVOM_HD inline std::uint8_t obstacle_flags(const ShadowRays& behind, const ColumnParameters& p,
                                            std::int32_t x, std::int32_t y, float ground_m,
                                            const ObstacleSums& own, const ObstacleSums& around,
                                            std::int32_t lowest) {
+  const Spare spare(around);
   if (around.low_hits >= kShadowHits) {
     const Shadow shadow(behind, p, x, y, ground_m);
-    if ((own.low_hits > 0 && shadow.is_high()) || shadow.is_low()) return kHard;
+    const bool casts_high =
+        own.low_hits > 0 && shadow.is_high() && (shadow.begins_at_once() || spare.reaches(kGradualDensity));
+    if (casts_high || shadow.is_low()) return kHard;
   }
   if (own.hits == 0) return 0;
-  const double spare_hits = static_cast<double>(around.hits) - around.voxels;
-  const double spare_rays = static_cast<double>(around.rays) - around.voxels;
-  if (around.hits < kLeastHits || spare_hits < kLeastDensity * spare_rays) return kSoft;
-  const bool dense = spare_rays > 0 && spare_hits >= p.layers.density_threshold * spare_rays;
-  return dense || is_tall(behind.map, p, x, y, ground_m, lowest) ? kHard : kSoft;
+  if (around.hits < kLeastHits) return kSoft;
+  if (spare.rays > 0 && spare.reaches(p.layers.density_threshold)) return kHard;
+  return spare.is_surely_thick() && is_tall(behind.map, p, x, y, ground_m, lowest) ? kHard : kSoft;
 }
 
 }  // namespace gvom

@@ -64,10 +64,23 @@ TEST_CASE("A stack may have one empty layer in it, not two, and the columns arou
   CHECK(with(low + Points{{8.75, 0.75, 1.05}, {8.25, 0.25, 2.05}}).flags == kHard);
 }
 
-TEST_CASE("Dust is soft, however tall: a sixteenth of its rays must end in it, less one hit for each voxel") {
-  const Points four{{8.25, 0.25, 0.65}, {8.25, 0.25, 1.15}, {8.25, 0.25, 1.25}, {8.25, 0.25, 1.75}};
-  CHECK(with(four + Points(15, {15.25, 0.25, 1.25})).flags == kHard);  // three voxels: 1 of 16
-  CHECK(with(four + Points(16, {15.25, 0.25, 1.25})).flags == kSoft);
+TEST_CASE("Dust is soft, however tall: hits must be a twentieth of the rays and 0.8 of their own root more") {
+  // Two voxels, twelve hits; less one for each, ten: 10 - 0.8 sqrt(10) = 7.47 is a twentieth of 149.4.
+  Points hits;
+  for (int i = 0; i < 6; ++i) hits = hits + Points{{8.25, 0.25, 0.65}, {8.25, 0.25, 1.65}};
+  hits = hits + Points{{8.75, 0.75, 1.25}};  // fills the layer between; its only ray is its hit
+  const auto passing = [](std::size_t n) { return Points(n, {15.25, 0.25, 1.25 - 0.6 * 15 / 8}); };
+  CHECK(with(hits + passing(139)).flags == kHard);  // 149 rays to spare
+  CHECK(with(hits + passing(140)).flags == kSoft);  // 150
+}
+
+TEST_CASE("A stack of single hits of few rays is dust far out, though an eighth of its rays ends in it") {
+  const Points five{
+      {8.25, 0.25, 0.65}, {8.25, 0.25, 0.75}, {8.25, 0.25, 1.15}, {8.25, 0.25, 1.25}, {8.25, 0.25, 1.75}};
+  const auto passing = [](std::size_t n) { return Points(n, {15.25, 0.25, 1.25}); };
+  // Three voxels, two hits to spare: 2 - 0.8 sqrt(2) = 0.87 is a twentieth of 17.4.
+  CHECK(with(five + passing(15)).flags == kHard);
+  CHECK(with(five + passing(16)).flags == kSoft);
 }
 
 TEST_CASE("Three hits are too few to be hard") {
@@ -103,12 +116,12 @@ TEST_CASE("The columns around say how dense a thing is") {
   CHECK(with(bush(2, 3) + beside).obstacle_density == 0.4f);
 }
 
-// A rock of 0.7 m: its face stops twelve rays, thirty go over it through the same voxel. In its shadow no ray
-// meets the ground but one, at `seen_x_m`.
-ColumnValues rock(double seen_x_m) {
-  Points points = Points(30, {15.25, 0.25, 1.25 - 0.45 * 15 / 8}) + Points{{seen_x_m, 0.25, 0.05}};
+// A rock of 0.7 m: its face stops twelve rays, `over` go over it through the same voxel. In its shadow no ray
+// meets the ground but one, at `seen_x_m`; nor does one beside it from `dark_beside_x_m` on.
+ColumnValues rock(double seen_x_m, std::size_t over = 30, double dark_beside_x_m = 99) {
+  Points points = Points(over, {15.25, 0.25, 1.25 - 0.45 * 15 / 8}) + Points{{seen_x_m, 0.25, 0.05}};
   for (const Eigen::Vector3d& p : kFloor)
-    if (p.x() < 8.5 || p.y() != 0.25) points.push_back(p);
+    if ((p.x() < 8.5 || p.y() != 0.25) && (p.x() < dark_beside_x_m || p.y() < 0.5)) points.push_back(p);
   for (int i = 0; i < 12; ++i) points.emplace_back(8.25, 0.25, 0.59 + 0.01 * i);
   Rig rig;
   rig.see(points);
@@ -120,6 +133,15 @@ TEST_CASE("A rock of 0.7 m is hard by its shadow, from two dark columns of four 
   CHECK(rock(8.25).obstacle_density == static_cast<float>(12.0 / 42));
   CHECK(rock(9.75).flags == kHard);   // 8.75 and 9.25 are seen through
   CHECK(rock(10.25).flags == kSoft);  // and 9.75
+}
+
+TEST_CASE("A shadow that begins gradually is a bush's, if less than a quarter of the rays ends in it") {
+  // Less a hit for the voxel, 11 of 44 rays, and 11 of 45.
+  CHECK(rock(9.75, 33).flags == kHard);
+  CHECK(rock(9.75, 34).flags == kSoft);
+  CHECK(rock(8.25, 34).flags == kHard);       // dark from its face on
+  CHECK(rock(9.75, 34, 8.6).flags == kHard);  // what is beside it is, too
+  CHECK(rock(9.75, 34, 9.6).flags == kSoft);  // but not a step later
 }
 
 // A rock of half a metre: its top lies in the column (4.25, 0.75), its side in (4.25, 0.25), below all

@@ -40,11 +40,11 @@ class Obstacles {
 
   [[nodiscard]] std::uint8_t flag(int x, int y) const {
     const Sums own = sums_.at(x, y), around = sums_around(x, y);
-    if (around.low_hits >= 10 && own.low_hits > 0 && casts_high_shadow(x, y)) return kHard;
+    if (around.low_hits >= 10 && own.low_hits > 0 && casts_high_shadow(x, y, around)) return kHard;
     if (around.low_hits >= 10 && casts_low_shadow(x, y)) return kHard;
     if (own.hits == 0) return 0;
-    if (around.hits < 4 || stopped(around) < 0.0625 * counted(around)) return kSoft;
-    return is_dense(around) || is_tall(x, y) ? kHard : kSoft;
+    if (around.hits < 4) return kSoft;
+    return is_dense(around) || (is_surely_thick(around) && is_tall(x, y)) ? kHard : kSoft;
   }
 
  private:
@@ -120,13 +120,20 @@ class Obstacles {
     return line.length() > 0 && sums_.inside(last.x, last.y);
   }
 
-  [[nodiscard]] bool casts_high_shadow(int x, int y) const {
+  [[nodiscard]] bool casts_high_shadow(int x, int y, const Sums& around) const {
     const SightLine line({x, y}, vehicle_);
     if (!four_behind(line)) return false;
     int dark = 0;
     for (int behind = 1; behind <= 4; ++behind)
       if (ray_over_m({x, y}, line.at(-behind)) >= layers_.min_obstacle_height_m) ++dark;
-    return dark >= 2;
+    return dark >= 2 && (is_dark_at_once(x, y, line) || stopped(around) >= 0.25 * counted(around));
+  }
+
+  [[nodiscard]] bool is_dark_at_once(int x, int y, const SightLine& line) const {
+    for (const int step : {0, -1})
+      for (const ColumnAt& at : line.abreast(step))
+        if (ray_over_m({x, y}, at) >= layers_.min_obstacle_height_m) return true;
+    return false;
   }
 
   [[nodiscard]] bool casts_low_shadow(int x, int y) const {
@@ -149,6 +156,12 @@ class Obstacles {
 
   [[nodiscard]] bool is_dense(const Sums& around) const {
     return counted(around) > 0 && stopped(around) >= layers_.density_threshold * counted(around);
+  }
+
+  // More hits than of dust, by 0.8 of the root of how many there are.
+  [[nodiscard]] static bool is_surely_thick(const Sums& around) {
+    const double over = stopped(around) - 0.05 * counted(around);
+    return over > 0 && over * over >= 0.64 * stopped(around);
   }
 
   // The highest `min_height` of the layer z in the 3 x 3 columns; -infinity if it is empty.
