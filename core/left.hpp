@@ -7,6 +7,7 @@ namespace gvom {
 
 inline constexpr std::int64_t kQuiet_ns = 180'000'000;   ///< What isn't hit for so long may have left.
 inline constexpr std::int64_t kJustNow_ns = 80'000'000;  ///< Hits this new, beside it, say that it stays.
+inline constexpr std::int64_t kLooksBack_ns = 1'000'000'000;  ///< An older hit is as one of that age.
 inline constexpr std::uint64_t kMissed = 4;  ///< So many hits would have come, had it still been there.
 inline constexpr std::uint64_t kSurelyMissed = 16;  ///< Likewise, whatever is hit beside it.
 
@@ -29,26 +30,28 @@ GVOM_HD bool is_hit_around(const Maps& maps, const Int3& world) {
 /// @param hits, passes of the fused voxel
 template <class Maps>
 GVOM_HD Presence presence(const Maps& maps, const Int3& world, std::uint32_t hits, std::uint32_t passes) {
+  const std::int64_t newest_ns = maps.stamp_ns(0);
+  std::int64_t passed_ns = 0, hit_ns = newest_ns - kLooksBack_ns;
   std::uint64_t since = 0, now = 0;  // passes: of newer maps, and of those of the stamp in work
-  std::int64_t passed_ns = 0;
-  for (std::int32_t i = 0; i < maps.count(); ++i) {
+  for (std::int32_t i = 0; i < maps.count() && maps.stamp_ns(i) > hit_ns; ++i) {
     const std::int32_t lookup = maps.lookup(i, world);
-    const std::int64_t stamp_ns = maps.stamp_ns(i);
-    if (i > 0 && stamp_ns != maps.stamp_ns(i - 1)) {
+    if (i > 0 && maps.stamp_ns(i) != maps.stamp_ns(i - 1)) {
       since += now;
       now = 0;
     }
-    const std::uint64_t missed = since * hits, before = std::uint64_t{hits} + passes - since;
-    const bool passed = since != 0 && passed_ns - stamp_ns >= kQuiet_ns;
-    if (passed && missed >= kSurelyMissed * before) return Presence::left;
     if (lookup >= 0) {
-      if (passed && missed >= kMissed * before && !is_hit_around(maps, world)) return Presence::left;
-      return maps.stamp_ns(0) - stamp_ns >= kQuiet_ns ? Presence::quiet : Presence::there;
+      hit_ns = maps.stamp_ns(i);
+      now = 0;
+      break;
     }
-    if (since == 0) passed_ns = stamp_ns;
+    if (since + now == 0) passed_ns = maps.stamp_ns(i);
     now += free_passes(lookup);
   }
-  return Presence::quiet;
+  since += now;
+  const std::uint64_t missed = since * hits, before = std::uint64_t{hits} + passes - since;
+  const bool passed = since != 0 && passed_ns - hit_ns >= kQuiet_ns && missed >= kMissed * before;
+  if (passed && (missed >= kSurelyMissed * before || !is_hit_around(maps, world))) return Presence::left;
+  return newest_ns - hit_ns >= kQuiet_ns ? Presence::quiet : Presence::there;
 }
 
 }  // namespace gvom

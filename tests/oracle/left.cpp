@@ -35,18 +35,18 @@ bool Leaving::hit_just_now_around(const Int3& world) const {
 }
 
 bool Leaving::passed(const Int3& world, const Voxel& voxel) const {
-  const auto last = std::find_if(window_.begin(), window_.end(),
-                                 [&](const BufferMap* map) { return voxel_in(*map, world).hits > 0; });
-  if (last == window_.end()) return false;
+  std::int64_t hit_ns = window_.front()->stamp_ns - 1'000'000'000;
+  for (const BufferMap* map : window_)
+    if (voxel_in(*map, world).hits > 0) hit_ns = std::max(hit_ns, map->stamp_ns);
   std::uint64_t passes = 0;
   std::int64_t passed_ns = 0;  // by the newest map
   for (const BufferMap* map : window_) {
-    if (map->stamp_ns <= (*last)->stamp_ns) break;
+    if (map->stamp_ns <= hit_ns) break;
     const Voxel one = voxel_in(*map, world);
     if (passes == 0 && one.passes > 0) passed_ns = map->stamp_ns;
     passes += one.passes;
   }
-  if (passes == 0 || passed_ns - (*last)->stamp_ns < 180'000'000) return false;
+  if (passes == 0 || passed_ns - hit_ns < 180'000'000) return false;
   const std::uint64_t before = std::uint64_t{voxel.hits} + voxel.passes - passes;
   if (passes * voxel.hits >= 16 * before) return true;
   return passes * voxel.hits >= 4 * before && !hit_just_now_around(world);
