@@ -16,6 +16,12 @@ GVOM_HD inline std::int32_t lowest_bit_of(std::uint64_t word) {
 #endif
 }
 
+/// Whether a word has at least so many set bits, 1 or more.
+GVOM_HD inline bool has_bits(std::uint64_t word, std::int32_t least) {
+  for (; least > 1; --least) word &= word == 0 ? 0 : word - 1;
+  return word != 0;
+}
+
 /// A word of all bits from `bit` up, which may be below the word or above it.
 GVOM_HD inline std::uint64_t bits_from(std::int32_t bit) {
   if (bit <= 0) return ~std::uint64_t{0};

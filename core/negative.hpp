@@ -2,60 +2,10 @@
 // be there, by what the ground on this side of it and beyond it says.
 #pragma once
 
-#include "core/column_grid.hpp"
+#include "core/column_bits.hpp"
+#include "core/sight_line.hpp"
 
 namespace gvom {
-
-/// The line from a column to the vehicle and away from it: whole columns along the longer axis.
-class SightLine {
- public:
-  GVOM_HD SightLine(std::int32_t x, std::int32_t y, std::int32_t vehicle_x, std::int32_t vehicle_y)
-      : x_(x), y_(y) {
-    const std::int32_t dx = vehicle_x - x, dy = vehicle_y - y;
-    const std::int32_t along_x = dx < 0 ? -dx : dx, along_y = dy < 0 ? -dy : dy;
-    by_x_ = along_x >= along_y;
-    columns_ = by_x_ ? along_x : along_y;
-    major_ = (by_x_ ? dx : dy) < 0 ? -1 : 1;
-    const std::int32_t minor = by_x_ ? dy : dx;
-    slope_ = columns_ == 0 ? 0 : minor * 65536 / columns_;
-    columns_square_ = dx * dx + dy * dy;
-  }
-
-  /// Columns along the longer axis to the vehicle's.
-  [[nodiscard]] GVOM_HD std::int32_t columns() const { return columns_; }
-  /// Length of a step, metres.
-  [[nodiscard]] GVOM_HD double step_m(double resolution_m) const {
-    return resolution_m * std::sqrt(static_cast<double>(columns_square_)) / columns_;
-  }
-  /// Index of the column `steps` towards the vehicle (negative: away from it), or -1 beyond the grid.
-  [[nodiscard]] GVOM_HD std::int32_t at(const ColumnGrid& grid, std::int32_t steps) const {
-    const std::int32_t x = x_at(steps), y = y_at(steps);
-    return grid.contains(x, y) ? grid.at(x, y) : -1;
-  }
-  /// The same where a column beside it may still be in the grid: then perhaps in the margin.
-  [[nodiscard]] GVOM_HD std::int32_t middle_at(const ColumnGrid& grid, std::int32_t steps) const {
-    const std::int32_t x = x_at(steps), y = y_at(steps), n = grid.n_xy;
-    const bool near_grid = x >= -1 && y >= -1 && x <= n && y <= n;
-    return near_grid ? grid.at(x, y) : -1;
-  }
-  /// From the middle column of a step to the one beside it.
-  [[nodiscard]] GVOM_HD std::int32_t beside(const ColumnGrid& grid) const { return by_x_ ? grid.pitch() : 1; }
-
- private:
-  [[nodiscard]] GVOM_HD std::int32_t along(std::int32_t steps) const { return steps * major_; }
-  [[nodiscard]] GVOM_HD std::int32_t across(std::int32_t steps) const {
-    return (steps * slope_ + 32768) >> 16;
-  }
-  [[nodiscard]] GVOM_HD std::int32_t x_at(std::int32_t steps) const {
-    return x_ + (by_x_ ? along(steps) : across(steps));
-  }
-  [[nodiscard]] GVOM_HD std::int32_t y_at(std::int32_t steps) const {
-    return y_ + (by_x_ ? across(steps) : along(steps));
-  }
-
-  std::int32_t x_, y_, columns_, major_, slope_, columns_square_;
-  bool by_x_;
-};
 
 /// Rims of so many steps, at least, say how ground goes on: of fewer, two groups far apart lie on one line
 /// whatever they are.
@@ -146,16 +96,28 @@ inline constexpr double kSureBend = 0.4;    ///< Of the rms, a step: what isn't 
 inline constexpr double kMirrored_m = 0.3;  ///< A ray so far below ground that is seen was mirrored.
 inline constexpr std::int32_t kLeastNeighbours = 2;  ///< Of a hole's column that show one too.
 
+/// What the three columns of a step have, the middle one and the two abreast of it.
+struct Abreast {
+  const GroundView& view;
+  std::int32_t beside;
+
+  [[nodiscard]] GVOM_HD bool has_rim(std::int32_t at) const {
+    return (view.is_rim[at] | view.is_rim[at - beside] | view.is_rim[at + beside]) != 0;
+  }
+  [[nodiscard]] GVOM_HD bool has_ground(std::int32_t at) const {
+    return view.ground_m[at] != kNone_m || view.ground_m[at - beside] != kNone_m ||
+           view.ground_m[at + beside] != kNone_m;
+  }
+};
+
 /// One column's search. Of the three columns of a step the middle one counts first, then the one before it
-/// and the one behind it in the order of the grid.
+/// and the one behind it in the order of the grid. @param Steps like `Abreast`
+template <class Steps>
 class HoleSearch {
  public:
-  GVOM_HD HoleSearch(const GroundView& view, const HoleParameters& p, std::int32_t x, std::int32_t y)
-      : view_(view),
-        p_(p),
-        line_(x, y, p.vehicle_x, p.vehicle_y),
-        beside_(line_.beside(view.grid)),
-        lowest_m_(static_cast<double>(view.lowest_ray_m[view.grid.at(x, y)])) {}
+  GVOM_HD HoleSearch(const GroundView& view, const Steps& steps, const HoleParameters& p,
+                     const SightLine& line, float lowest_ray_m)
+      : view_(view), steps_(steps), p_(p), line_(line), lowest_m_(static_cast<double>(lowest_ray_m)) {}
 
   /// By how much a ray has been below the ground that should be there, or 0. The column has no ground of its
   /// own, and a ray has left it.
@@ -175,27 +137,29 @@ class HoleSearch {
 
   /// The first rim towards the vehicle; no ray that went below it says anything.
   GVOM_HD bool find_rim() {
-    const std::int32_t most = p_.reach < line_.columns() ? p_.reach : line_.columns();
-    for (rim_steps_ = 1; rim_steps_ <= most; ++rim_steps_) {
-      const std::int32_t at = line_.middle_at(view_.grid, rim_steps_);
-      if (at < 0) return false;
-      const std::int32_t rim = is_rim(at) ? at : is_rim(at - beside_) ? at - beside_ : at + beside_;
-      if (!is_rim(rim)) continue;
-      rim_m_ = static_cast<double>(view_.ground_m[rim]);
-      return !(rim_m_ - static_cast<double>(view_.lowest_ray_m[rim]) > kMirrored_m);
-    }
-    return false;
+    const std::int32_t most = last_in_grid(1, p_.reach < line_.columns() ? p_.reach : line_.columns());
+    for (rim_steps_ = 1; rim_steps_ <= most; ++rim_steps_)
+      if (steps_.has_rim(line_.at(rim_steps_))) break;
+    if (rim_steps_ > most) return false;
+    const std::int32_t at = line_.at(rim_steps_), beside = line_.beside();
+    const std::int32_t rim = is_rim(at) ? at : is_rim(at - beside) ? at - beside : at + beside;
+    rim_m_ = static_cast<double>(view_.ground_m[rim]);
+    return !(rim_m_ - static_cast<double>(view_.lowest_ray_m[rim]) > kMirrored_m);
+  }
+
+  /// The last of `most` steps one way of which a column may be in the grid. @param way 1: to the vehicle
+  [[nodiscard]] GVOM_HD std::int32_t last_in_grid(std::int32_t way, std::int32_t most) const {
+    while (most > 0 && !line_.reaches(way * most, 1)) --most;
+    return most;
   }
 
   [[nodiscard]] GVOM_HD bool is_rim(std::int32_t at) const { return view_.is_rim[at] != 0; }
-  [[nodiscard]] GVOM_HD bool is_ground(std::int32_t at) const { return view_.ground_m[at] != kNone_m; }
 
   /// Adds the rims of a step, `steps` towards the vehicle, as `k` steps on from where the line begins.
   GVOM_HD bool add_rims(RimLine& line, std::int32_t steps, std::int32_t k) const {
-    const std::int32_t middle = line_.middle_at(view_.grid, steps);
-    if (middle < 0) return false;
-    const std::int32_t before = line.n;
-    const std::int32_t columns[3] = {middle, middle - beside_, middle + beside_};
+    if (!line_.reaches(steps, 1)) return false;
+    const std::int32_t before = line.n, middle = line_.at(steps);
+    const std::int32_t columns[3] = {middle, middle - line_.beside(), middle + line_.beside()};
     for (const std::int32_t at : columns)
       if (is_rim(at)) line.add(k, static_cast<double>(view_.ground_m[at]) - rim_m_);
     line.steps += line.n > before ? 1 : 0;
@@ -212,11 +176,17 @@ class HoleSearch {
 
   /// A hole: ground beyond it, whose line begins at the first ground there, and the rim on this side.
   GVOM_HD double hole_depth_m() const {
-    const std::int32_t far = first_ground_beyond();
+    const std::int32_t most = last_in_grid(-1, p_.reach + kFarSteps);
+    const std::int32_t far = first_ground_beyond(most);
     if (far == 0) return 0;
+    std::uint64_t rims = rims_beyond(far, most);
+    if (!has_bits(rims, kLeastSteps)) return 0;
     RimLine line;
-    for (std::int32_t k = 1; k <= kFarSteps; ++k) add_rims(line, -(far + k), k);
-    if (line.steps < kLeastSteps || is_surely_lower(line, far)) return 0;
+    for (; rims != 0; rims &= rims - 1) {
+      const std::int32_t k = lowest_bit_of(rims);
+      add_rims(line, -(far + k), k);
+    }
+    if (is_surely_lower(line, far)) return 0;
     const RimFit fit = solve_rims(line);
     if (!fits(fit)) return 0;
     const double expected = rim_m_ + fit.at_first_m * rim_steps_ / (rim_steps_ + far);
@@ -236,14 +206,20 @@ class HoleSearch {
     return first < least * determinant;
   }
 
-  /// Steps to it, or 0.
-  [[nodiscard]] GVOM_HD std::int32_t first_ground_beyond() const {
-    for (std::int32_t far = 1; far <= p_.reach; ++far) {
-      const std::int32_t at = line_.middle_at(view_.grid, -far);
-      if (at < 0) return 0;
-      if (is_ground(at) || is_ground(at - beside_) || is_ground(at + beside_)) return far;
-    }
+  /// Steps to it, or 0. @param most steps that are in the grid
+  [[nodiscard]] GVOM_HD std::int32_t first_ground_beyond(std::int32_t most) const {
+    const std::int32_t last = most < p_.reach ? most : p_.reach;
+    for (std::int32_t far = 1; far <= last; ++far)
+      if (steps_.has_ground(line_.at(-far))) return far;
     return 0;
+  }
+
+  /// Bit k: the step k beyond `far` has a rim.
+  [[nodiscard]] GVOM_HD std::uint64_t rims_beyond(std::int32_t far, std::int32_t most) const {
+    std::uint64_t rims = 0;
+    for (std::int32_t k = 1; k <= kFarSteps && far + k <= most; ++k)
+      rims |= static_cast<std::uint64_t>(steps_.has_rim(line_.at(-(far + k)))) << k;
+    return rims;
   }
 
   /// An edge: the ground before it goes on no higher than level, and bends as it did.
@@ -280,9 +256,9 @@ class HoleSearch {
   [[nodiscard]] GVOM_HD double range_m() const { return line_.columns() * step_m(); }
 
   const GroundView& view_;
+  const Steps& steps_;
   const HoleParameters& p_;
-  SightLine line_;
-  std::int32_t beside_;
+  const SightLine& line_;
   double lowest_m_;
   std::int32_t rim_steps_ = 0;
   double rim_m_ = 0;
@@ -299,7 +275,7 @@ GVOM_HD inline bool is_negative(const ColumnGrid& grid, const std::uint8_t* show
                                 std::int32_t x, std::int32_t y) {
   const std::uint8_t* own = shows + grid.at(x, y);
   if (*own == 0) return false;
-  const std::int32_t beside = SightLine(x, y, p.vehicle_x, p.vehicle_y).beside(grid);
+  const std::int32_t beside = SightLine(grid, x, y, p.vehicle_x, p.vehicle_y).beside();
   if (own[beside] + own[-beside] == 0) return false;
   std::int32_t neighbours = -1;
   for (std::int32_t dy = -1; dy <= 1; ++dy)

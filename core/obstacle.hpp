@@ -8,7 +8,7 @@
 #include "core/column_bits.hpp"
 #include "core/column_grid.hpp"
 #include "core/left.hpp"
-#include "core/negative.hpp"
+#include "core/sight_line.hpp"
 
 namespace gvom {
 
@@ -47,21 +47,29 @@ struct ColumnObstacles {
   }
 };
 
-/// The mask of a column's voxels that are no obstacles though occupied (R17), or nullptr: what stood on
-/// ground that the window has would be seen too. @param remembered the column's ground is
-GVOM_HD inline const std::uint64_t* past_obstacles(const FusedView& map, std::int32_t x, std::int32_t y,
-                                                   bool remembered) {
-  if (remembered || map.memory.remembered == nullptr) return nullptr;
-  return map.memory.remembered + map.column(x, y) * static_cast<std::size_t>(map.words);
+/// Whether a voxel shows what is remembered (R17).
+GVOM_HD inline bool is_old(const FusedView& map, std::int32_t x, std::int32_t y, std::int32_t z) {
+  if (map.memory.remembered == nullptr) return false;
+  return has_bit(map.memory.remembered + map.column(x, y) * static_cast<std::size_t>(map.words), z);
+}
+
+/// `presence` without looking where that says enough: no map of the window observes what is old, and of a few
+/// passes nothing has left. @param world the voxel, @param matters whether it matters that it is quiet
+template <class Maps>
+GVOM_HD Presence presence_if(bool old, bool matters, const Maps& maps, const Int3& world, std::uint32_t hits,
+                             std::uint32_t passes) {
+  if (old) return Presence::quiet;
+  if (passes < kMissed && !matters) return Presence::there;
+  return presence(maps, world, hits, passes);
 }
 
 /// Heights of a column's voxels ascend, so the walk ends at the first one over `max_obstacle_height`.
-/// What left its voxel is none. @param maps the window's, @param remembered the column's ground is
+/// What left its voxel is none, and on ground that the window has nothing old is: it would be seen too.
+/// @param maps the window's, @param remembered the column's ground is
 template <class Maps>
 GVOM_HD ColumnObstacles read_obstacles(const FusedView& map, const Maps& maps, const ColumnParameters& p,
                                        std::int32_t x, std::int32_t y, float ground_m, bool remembered) {
   const std::uint64_t* occupied = map.occupied + map.column(x, y) * static_cast<std::size_t>(map.words);
-  const std::uint64_t* past = past_obstacles(map, x, y, remembered);
   ColumnObstacles out{{}, 0, INFINITY};
   std::int32_t left = -2;  // the last voxel that something left
   for (std::int32_t z = lowest_bit(occupied, map.words); z >= 0; z = next_bit(occupied, map.words, z)) {
@@ -72,9 +80,11 @@ GVOM_HD ColumnObstacles read_obstacles(const FusedView& map, const Maps& maps, c
       break;
     }
     if (above_m < p.layers.min_obstacle_height_m - kLowObstacle_m) continue;
-    if (past != nullptr && has_bit(past, z)) continue;
+    const bool old = is_old(map, x, y, z);
+    if (old && !remembered) continue;
     const std::uint32_t hits = map.hits[cell], passes = map.passes[cell];
-    const Presence now = presence(maps, {p.origin[0] + x, p.origin[1] + y, p.origin[2] + z}, hits, passes);
+    const Int3 world{p.origin[0] + x, p.origin[1] + y, p.origin[2] + z};
+    const Presence now = presence_if(old, left == z - 1, maps, world, hits, passes);
     if (now == Presence::left || (now == Presence::quiet && left == z - 1)) {
       left = z;
       if (above_m >= p.layers.min_obstacle_height_m) out.sums.rays += hits + passes;
@@ -166,13 +176,10 @@ class Shadow {
   GVOM_HD Shadow(const ShadowRays& rays, const ColumnParameters& p, std::int32_t x, std::int32_t y,
                  float ground_m)
       : rays_(rays), ground_m_(static_cast<double>(ground_m)), obstacle_m_(p.layers.min_obstacle_height_m) {
-    const SightLine line(x, y, p.vehicle_column_x, p.vehicle_column_y);
-    beside_ = line.beside(rays.grid);
-    in_grid_ = line.columns() > 0;
-    for (std::int32_t behind = 0; behind <= kShadowColumns; ++behind) {
-      at_[behind] = line.at(rays.grid, -behind);
-      in_grid_ = in_grid_ && at_[behind] >= 0;
-    }
+    const SightLine line(rays.grid, x, y, p.vehicle_column_x, p.vehicle_column_y);
+    beside_ = line.beside();
+    in_grid_ = line.columns() > 0 && line.reaches(-kShadowColumns, 0);
+    for (std::int32_t behind = 0; behind <= kShadowColumns; ++behind) at_[behind] = line.at(-behind);
   }
 
   /// Rays were kept from most of the columns behind it up to the height of an obstacle: a beam's gap is

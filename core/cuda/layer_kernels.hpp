@@ -212,8 +212,13 @@ struct JudgeColumns {
  private:
   [[nodiscard]] __device__ float hole_m(std::int32_t x, std::int32_t y) const {
     const std::int32_t at = columns.grid.at(x, y);
-    if (may_hide_hole(columns.ground(), at))
-      return static_cast<float>(HoleSearch(columns.ground(), tick->holes, x, y).depth_m());
+    const GroundView ground = columns.ground();
+    if (may_hide_hole(ground, at)) {
+      const HoleParameters& p = tick->holes;
+      const SightLine line(columns.grid, x, y, p.vehicle_x, p.vehicle_y);
+      const Abreast steps{ground, line.beside()};
+      return static_cast<float>(HoleSearch(ground, steps, p, line, columns.lowest_ray_m[at]).depth_m());
+    }
     float deepest_m = 0;
     for (std::int32_t line = 0; line < kLines; ++line)
       for (std::int32_t d = 1; d <= kPitSides; ++d) {
