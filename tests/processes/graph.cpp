@@ -67,6 +67,11 @@ void Graph::play_through(const std::string& rate) const {
   REQUIRE(code == 0);
 }
 
+void Graph::lose_ingest(const std::string& lidar) {
+  CHECK(ingest(lidar).kill_asleep() == 128 + SIGKILL);
+  ingests_.erase(lidar);
+}
+
 void Graph::stop(int signal) {
   const auto end = [&](const std::string& name, Program& program) {
     const int code = program.stop(signal);

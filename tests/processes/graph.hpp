@@ -42,6 +42,9 @@ class Graph {
   /// Replays to the end; the test fails if gvom-odometry does not end well.
   void play_through(const std::string& rate) const;
 
+  /// kill -9, and nobody starts it again.
+  void lose_ingest(const std::string& lidar);
+
   /// Ends what runs, the broker last; the test fails if one does not end well.
   void stop(int signal = SIGTERM);
 
