@@ -12,10 +12,12 @@ namespace gvom::test {
 
 namespace fs = std::filesystem;
 
-Vehicle simulated(const std::string& folder, double seconds) {
+Vehicle simulated(const std::string& folder, double seconds, double speed_mps) {
   const std::string file = GVOM_SOURCE_DIR "/config/vehicles/two_lidars.yaml";
-  const Ended made =
-      run("gvom-sim", {"--config", file, "--seconds", std::to_string(seconds), "--out", folder}, folder);
+  const Ended made = run("gvom-sim",
+                         {"--config", file, "--seconds", std::to_string(seconds), "--speed",
+                          std::to_string(speed_mps), "--out", folder},
+                         folder);
   INFO(made.output);
   REQUIRE(made.code == 0);
   Vehicle vehicle{file, {"front", "rear"}, folder, small_map()};

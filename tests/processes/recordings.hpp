@@ -8,8 +8,13 @@
 
 namespace gvom::test {
 
+/// How fast the simulated vehicle goes if nothing else is said.
+inline constexpr double kSpeed_mps = 5;
+/// So slow that the grid stays where it is for as long as a test lasts.
+inline constexpr double kCrawling_mps = 0.1;
+
 /// The simulated vehicle of two lidars, `front` and `rear`, and its drive of so many seconds in FOLDER.
-Vehicle simulated(const std::string& folder, double seconds);
+Vehicle simulated(const std::string& folder, double seconds, double speed_mps = kSpeed_mps);
 
 /// A vehicle with the simulated one's lidar `front` alone, its recording made by `simulated` in FOLDER.
 Vehicle front_only(const std::string& folder);

@@ -90,6 +90,18 @@ std::vector<Voxel> voxels_of(const std::string& map_folder) {
   return *voxels;
 }
 
+std::vector<std::uint8_t> visibility_of(const std::string& map_folder) {
+  const auto array = npy::read_npy(map_folder + "/visibility.npy");
+  REQUIRE(array);
+  const auto values = array->values<std::uint8_t>();
+  REQUIRE(values);
+  return *values;
+}
+
+std::vector<std::int32_t> origin_of(const std::string& map_folder) {
+  return meta_of(map_folder).at("origin").get<std::vector<std::int32_t>>();
+}
+
 std::vector<int> numbers_before(const std::string& text, const std::string& words) {
   std::smatch match;
   if (!std::regex_search(text, match, std::regex("(\\d+)(?: of (\\d+))? " + words))) return {};

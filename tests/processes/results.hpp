@@ -29,6 +29,10 @@ std::string differences(const std::string& map_folder, const std::string& other_
 
 std::vector<Voxel> voxels_of(const std::string& map_folder);
 
+/// A map's layer `visibility`, [y][x], and the world voxel of its column (0, 0).
+std::vector<std::uint8_t> visibility_of(const std::string& map_folder);
+std::vector<std::int32_t> origin_of(const std::string& map_folder);
+
 /// The numbers before `words` in a text: numbers("7 of 9 sweeps mapped", "sweeps mapped") is {7, 9}.
 std::vector<int> numbers_before(const std::string& text, const std::string& words);
 
