@@ -44,21 +44,28 @@ const std::vector<KeyConcern>& key_concerns() {
   static const std::vector<KeyConcern> rows = {
       {"name", kNobody},
       {"map", kFusion | kIngests},
-      {"map.size_xy", kFusion | kIngests | kBroker},
+      {"map.size_xy", kFusion | kIngests | kBroker | kPlanner},
       {"map.size_z", kFusion | kIngests | kBroker},
       {"window", kFusion},
       {"window.buffer_size", kFusion | kBroker},
       {"memory", kFusion},
-      {"vehicle", kFusion | kIngests},
+      {"vehicle", kPlanner},
+      {"vehicle.body_min_m", kIngests},
+      {"vehicle.body_max_m", kIngests},
+      {"vehicle.radius_m", kFusion | kIngests},
+      {"vehicle.base_height_m", kFusion | kIngests},
       {"layers", kFusion},
       {"cost", kFusion},
       {"fusion", kFusion},
       {"fusion.voxel_rate_hz", kFusion | kBroker},
       {"ipc", kBroker},
+      {"planner", kPlanner},
       {"odometry", kIngests},
+      {"odometry.max_speed_mps", kIngests | kPlanner},
       {"odometry.source", kOdometry},
-      {"lidars", kFusion | kOdometry | kBroker},  // which lidars there are
+      {"lidars", kFusion | kOdometry | kBroker | kPlanner},  // which lidars there are
       {"lidars.NAME", kIngest},
+      {"lidars.NAME.T_base_sensor.yaw", kIngest | kPlanner},
       {"lidars.NAME.max_returns", kIngest | kFusion | kBroker},
   };
   return rows;
@@ -69,6 +76,7 @@ bool concerns(const std::string& key, const std::string& process) {
   if (process == "gvom-roudi") return (concern & kBroker) != 0;
   if (process == "gvom-fusion") return (concern & kFusion) != 0;
   if (process == "gvom-odometry") return (concern & kOdometry) != 0;
+  if (process == "gvom-planner") return (concern & kPlanner) != 0;
   const std::string lidar = lidar_of(process);
   if (lidar.empty()) return false;
   const auto of_lidar = split_lidar_key(key);
@@ -85,6 +93,7 @@ std::string who_is_concerned(const std::string& key) {
   add(kIngests, "every gvom-ingest");
   add(kIngest, "gvom-ingest@NAME");
   add(kOdometry, "gvom-odometry");
+  add(kPlanner, "gvom-planner");
   add(kBroker, "everything if the pools of shared memory change");
   return who.empty() ? "nobody" : who;
 }

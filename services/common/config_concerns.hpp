@@ -17,6 +17,7 @@ enum Concern : unsigned {
   kIngests = 2,   ///< All of them.
   kIngest = 4,    ///< That of the key's own lidar.
   kOdometry = 8,  ///< gvom-odometry, which replays.
+  kPlanner = 32,  ///< gvom-planner.
   kBroker = 16,   ///< It decides the pools of shared memory: if they change, everything starts again.
 };
 

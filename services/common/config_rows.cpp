@@ -16,10 +16,9 @@ constexpr double kTurn = 6.2832;
 constexpr bool kRequired = true;
 constexpr bool kOptional = false;
 
-}  // namespace
-
-const std::vector<VehicleRow>& vehicle_rows() {
-  static const std::vector<VehicleRow> rows = {
+/// Up to the vehicle's own geometry.
+std::vector<VehicleRow> map_rows() {
+  return {
       {{"name", "", Rule::identifier, 0, 0, kRequired, "of the vehicle"},
        [](V& c) -> Field { return &c.name; }},
 
@@ -57,7 +56,11 @@ const std::vector<VehicleRow>& vehicle_rows() {
        [](V& c) -> Field { return &c.mapper.vehicle.radius_m; }},
       {{"vehicle.base_height_m", "m", Rule::range, -5, 5, kOptional, "base_link above the ground (R9)"},
        [](V& c) -> Field { return &c.mapper.vehicle.base_height_m; }},
+  };
+}
 
+std::vector<VehicleRow> layer_rows() {
+  return {
       {{"layers.min_hits", "hits", Rule::range, 1, 1000, kOptional, "that make a voxel occupied (R8)"},
        [](V& c) -> Field { return &c.mapper.layers.min_hits; }},
       {{"layers.min_obstacle_height_m", "m", Rule::range, 0, 10, kOptional,
@@ -91,7 +94,11 @@ const std::vector<VehicleRow>& vehicle_rows() {
        [](V& c) -> Field { return &c.mapper.cost.slope_full_rad; }},
       {{"cost.roughness_full_m2", "m^2", Rule::above_min, 0, 100, kOptional, "roughness of full cost (R16)"},
        [](V& c) -> Field { return &c.mapper.cost.roughness_full_m2; }},
+  };
+}
 
+std::vector<VehicleRow> process_rows() {
+  return {
       {{"fusion.backend", "", Rule::choice, 0, 0, kOptional,
         "what fuses and makes the layers; auto: a GPU if one can be used and keeps working, else the CPU"},
        [](V& c) -> Field { return &c.fusion.backend; }},
@@ -126,7 +133,18 @@ const std::vector<VehicleRow>& vehicle_rows() {
         "counts"},
        [](V& c) -> Field { return &c.odometry.max_clock_offset_s; }},
   };
-  return rows;
+}
+
+}  // namespace
+
+const std::vector<VehicleRow>& vehicle_rows() {
+  static const std::vector<VehicleRow> all = [] {
+    std::vector<VehicleRow> rows;
+    for (const auto& part : {map_rows(), limit_rows(), layer_rows(), process_rows(), planner_rows()})
+      rows.insert(rows.end(), part.begin(), part.end());
+    return rows;
+  }();
+  return all;
 }
 
 const std::vector<LidarRow>& lidar_rows() {

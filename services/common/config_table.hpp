@@ -21,7 +21,7 @@ struct BoxCorner {
   Eigen::Vector3d Box::*corner;
 };
 
-using Field = std::variant<double*, int*, std::string*, Backend*, LidarClock*, BoxCorner>;
+using Field = std::variant<double*, int*, std::string*, Backend*, LidarClock*, planner::Steering*, BoxCorner>;
 
 enum class Rule {
   range,          ///< min .. max
@@ -32,6 +32,7 @@ enum class Rule {
   text,           ///< One line of any text.
   choice,         ///< One of a back end's words.
   clock,          ///< One of a clock's words.
+  steering,       ///< One of a steering's words.
   corner,         ///< A list [x, y, z], each in min .. max.
 };
 
@@ -57,6 +58,9 @@ using LidarRow = Row<LidarConfig>;
 /// Rows of one section stand together, in the order in which they are printed.
 const std::vector<VehicleRow>& vehicle_rows();
 const std::vector<LidarRow>& lidar_rows();
+/// Those of vehicle_rows() that a planner reads: `vehicle.*` and `planner.*`.
+std::vector<VehicleRow> limit_rows();
+std::vector<VehicleRow> planner_rows();
 
 bool is_identifier(const std::string& text);
 

@@ -85,10 +85,11 @@ bool assign_choice(const YAML::Node& node, Backend& out) {
   return backend.has_value();
 }
 
-bool assign_clock(const YAML::Node& node, LidarClock& out) {
-  for (const auto& [word, clock] : kClockWords) {
+template <class Words, class Value>
+bool assign_word(const Words& words, const YAML::Node& node, Value& out) {
+  for (const auto& [word, value] : words) {
     if (!node.IsScalar() || node.Scalar() != word) continue;
-    out = clock;
+    out = value;
     return true;
   }
   return false;
@@ -115,7 +116,8 @@ struct Assign {
   bool operator()(int* out) const { return assign_integer(row, node, *out); }
   bool operator()(std::string* out) const { return assign_text(row, node, *out); }
   bool operator()(Backend* out) const { return assign_choice(node, *out); }
-  bool operator()(LidarClock* out) const { return assign_clock(node, *out); }
+  bool operator()(LidarClock* out) const { return assign_word(kClockWords, node, *out); }
+  bool operator()(planner::Steering* out) const { return assign_word(kSteeringWords, node, *out); }
   bool operator()(const BoxCorner& out) const { return assign_corner(row, node, out); }
 };
 
@@ -136,16 +138,20 @@ std::string choices(const Words& words) {
   return text;
 }
 
+template <class Words, class Value>
+std::string word_in(const Words& words, const Value& value) {
+  for (const auto& choice : words)
+    if (choice.second == value) return std::string(choice.first);
+  return {};
+}
+
 struct ValueText {
   std::string operator()(const double* value) const { return number_text(*value); }
   std::string operator()(const int* value) const { return std::to_string(*value); }
   std::string operator()(const std::string* value) const { return quoted(*value); }
   std::string operator()(const Backend* value) const { return std::string(word_of(*value)); }
-  std::string operator()(const LidarClock* value) const {
-    for (const auto& [word, clock] : kClockWords)
-      if (clock == *value) return std::string(word);
-    return {};
-  }
+  std::string operator()(const LidarClock* value) const { return word_in(kClockWords, *value); }
+  std::string operator()(const planner::Steering* value) const { return word_in(kSteeringWords, *value); }
   std::string operator()(const BoxCorner& value) const {
     if (!value.box->has_value()) return {};
     const Eigen::Vector3d& corner = (**value.box).*value.corner;
@@ -218,6 +224,8 @@ std::string range_text(const RowInfo& row) {
       return choices(kBackendWords);
     case Rule::clock:
       return choices(kClockWords);
+    case Rule::steering:
+      return choices(kSteeringWords);
     case Rule::text:
       break;
   }
@@ -232,6 +240,7 @@ std::string expected_text(const RowInfo& row, const Field& field) {
       return "one line of text";
     case Rule::choice:
     case Rule::clock:
+    case Rule::steering:
       return "one of " + range_text(row);
     case Rule::corner:
       return "a list [x, y, z] of numbers in " + range_text(row);

@@ -9,6 +9,7 @@
 
 #include "core/backend.hpp"
 #include "core/config.hpp"
+#include "services/common/planner_config.hpp"
 
 namespace gvom::services {
 
@@ -75,16 +76,20 @@ struct VehicleConfig {
   FusionConfig fusion;
   IpcConfig ipc;
   OdometryConfig odometry;
+  planner::PlannerConfig planner;   ///< Keys `planner.*`, and its `vehicle` the rest of `vehicle.*`.
   std::vector<LidarConfig> lidars;  ///< Sorted by name.
 };
 
-// The words of configuration and command line for a back end, and for a clock.
+// The words of configuration and command line for a back end, a clock and a steering.
 
 inline constexpr std::pair<std::string_view, Backend> kBackendWords[] = {
     {"auto", Backend::automatic}, {"cpu", Backend::cpu}, {"cuda", Backend::cuda}};
 
 inline constexpr std::pair<std::string_view, LidarClock> kClockWords[] = {{"sensor", LidarClock::sensor},
                                                                           {"arrival", LidarClock::arrival}};
+
+inline constexpr std::pair<std::string_view, planner::Steering> kSteeringWords[] = {
+    {"ackermann", planner::Steering::ackermann}, {"skid_steer", planner::Steering::skid_steer}};
 
 inline std::optional<Backend> backend_of(std::string_view word) {
   for (const auto& [known, backend] : kBackendWords)

@@ -15,7 +15,8 @@ using Names = std::set<std::string>;
 namespace {
 
 const std::vector<std::string> kProcesses = {"gvom-roudi",        "gvom-fusion",      "gvom-odometry",
-                                             "gvom-ingest-front", "gvom-ingest-rear", "gvom-snapshot"};
+                                             "gvom-ingest-front", "gvom-ingest-rear", "gvom-planner",
+                                             "gvom-snapshot"};
 
 services::VehicleConfig vehicle(const std::vector<std::string>& sets = {}) {
   const auto config = services::load_vehicle_config(GVOM_SOURCE_DIR "/config/vehicles/two_lidars.yaml", sets);
@@ -47,6 +48,11 @@ TEST_CASE("a change concerns those who use the key, and nobody else") {
   CHECK(changed_by("odometry.source='tum:other.tum'") == Names{"gvom-odometry"});
   CHECK(changed_by("map.resolution_z_m=0.123") ==
         Names{"gvom-fusion", "gvom-ingest-front", "gvom-ingest-rear"});
+  CHECK(changed_by("planner.speed_mps=3") == Names{"gvom-planner"});
+  CHECK(changed_by("vehicle.width_m=1.9") == Names{"gvom-planner"});
+  CHECK(changed_by("vehicle.body_min_m=[-1, -1, -1]") == Names{"gvom-ingest-front", "gvom-ingest-rear"});
+  CHECK(changed_by("vehicle.radius_m=1.9") == Names{"gvom-fusion", "gvom-ingest-front", "gvom-ingest-rear"});
+  CHECK(changed_by("lidars.front.T_base_sensor.yaw=0.5") == Names{"gvom-ingest-front", "gvom-planner"});
   CHECK(changed_by("ipc.max_planners=7") == Names{"gvom-roudi"});
   CHECK(changed_by("name=other").empty());
 }
@@ -55,7 +61,7 @@ TEST_CASE("another lidar concerns those who serve all of them") {
   services::VehicleConfig more = vehicle();
   more.lidars.push_back(more.lidars.back());
   more.lidars.back().name = "left";
-  CHECK(changed_by(more) == Names{"gvom-roudi", "gvom-fusion", "gvom-odometry"});
+  CHECK(changed_by(more) == Names{"gvom-roudi", "gvom-fusion", "gvom-odometry", "gvom-planner"});
 }
 
 TEST_CASE("each key concerns somebody, but the vehicle's name") {

@@ -38,6 +38,10 @@ class Random {
       const auto& words = services::kBackendWords;
       **backend = words[static_cast<std::size_t>(uniform(0, std::size(words)))].second;
     }
+    if (auto* const* steering = std::get_if<planner::Steering*>(&field)) {
+      const auto& words = services::kSteeringWords;
+      **steering = words[static_cast<std::size_t>(uniform(0, std::size(words)))].second;
+    }
     if (auto* const* clock = std::get_if<services::LidarClock*>(&field)) {
       const auto& words = services::kClockWords;
       **clock = words[static_cast<std::size_t>(uniform(0, std::size(words)))].second;

@@ -20,7 +20,8 @@ Expected expected_of(const services::VehicleConfig& config) {
     expected.processes.push_back(tools::kIngestPrefix + lidar.name);
   for (const std::string& process : expected.processes)
     expected.process_hashes[process] = services::config_hash(config, process);
-  expected.process_hashes["gvom-odometry"] = services::config_hash(config, "gvom-odometry");
+  for (const char* process : {"gvom-odometry", "gvom-planner"})  // where they run
+    expected.process_hashes[process] = services::config_hash(config, process);
   return expected;
 }
 
