@@ -22,10 +22,13 @@ class Doorbell {
  public:
   /// Sets of those who listen, a bit each: the readers of a type of message, and a process (its number's set;
   /// some share one, and are woken for nothing).
+  static constexpr unsigned kTypes = 12;
   static constexpr std::uint32_t readers_of(MessageType type) {
-    return 1u << (static_cast<unsigned>(type) % 8);
+    return 1u << (static_cast<unsigned>(type) % kTypes);
   }
-  static constexpr std::uint32_t process(pid_t pid) { return 1u << (8 + static_cast<unsigned>(pid) % 24); }
+  static constexpr std::uint32_t process(pid_t pid) {
+    return 1u << (kTypes + static_cast<unsigned>(pid) % (32 - kTypes));
+  }
 
   /// For the broker: makes a new bell in the place of any that a dead broker left, and takes it away again.
   /// Errors: no_space, denied (another user's is in the way).

@@ -16,7 +16,17 @@ namespace gvom::ipc {
 inline constexpr std::uint32_t kMagic = 0x4D4F5647;  // "GVOM"
 inline constexpr std::size_t kNameLength = 32;       // with the terminating zero
 
-enum class MessageType : std::uint16_t { odometry = 1, buffer_map, layers, voxel_map, health, progress };
+enum class MessageType : std::uint16_t {
+  odometry = 1,
+  buffer_map,
+  layers,
+  voxel_map,
+  health,
+  progress,
+  course,
+  plan,
+  command
+};
 
 struct MessageHeader {
   std::uint32_t magic;
@@ -141,6 +151,64 @@ struct Progress {
   } taken[kMaxLidars];
 };
 
+/// Topic "course": places in odom to drive to, one after the other. A new one replaces the one before; one
+/// without places ends it.
+struct Course {
+  static constexpr MessageType kType = MessageType::course;
+  static constexpr std::uint16_t kVersion = 1;
+  static constexpr std::uint32_t kMaxPlaces = 256;
+  MessageHeader header;
+  std::uint32_t count;
+  std::uint32_t reserved;
+  struct Place {
+    double x_m, y_m;
+  } places[kMaxPlaces];
+};
+
+/// Topic "plan": what a planner means to do, for those who watch.
+struct Plan {
+  static constexpr MessageType kType = MessageType::plan;
+  static constexpr std::uint16_t kVersion = 1;
+  static constexpr std::uint32_t kMaxPoints = 256;
+  struct Point {
+    double x_m, y_m;  // of base_link in odom
+    float z_m, yaw_rad;
+    float curvature_per_m;  // from here on; positive: to the left
+    float speed_mps;        // that may be driven here; negative: backwards
+  };
+  MessageHeader header;  // stamp_ns: of the pose that it begins at
+  std::uint32_t mode;    // PlanMode
+  std::uint32_t reason;  // the planner's own number; `why` says it in words
+  char why[160];
+  std::uint32_t waypoint;  // of the course, that it drives to
+  std::uint32_t waypoints;
+  double goal_x_m, goal_y_m;  // that waypoint
+  double cost_to_go;          // from here to it; +infinity: no way
+  double seen_m;              // ground along the trajectory that is known
+  double layers_age_s;        // of the data, when the cycle began
+  std::int64_t mono_begun_ns;
+  std::int64_t mono_published_ns;
+  std::uint32_t path_count;        // the way to the goal, as far as it was made drivable
+  std::uint32_t trajectory_count;  // what it drives
+  Point path[kMaxPoints];
+  Point trajectory[kMaxPoints];
+};
+
+enum class PlanMode : std::uint32_t { drive = 0, creep = 1, back = 2, stop = 3, arrived = 4, gave_up = 5 };
+
+/// Topic "command": what the vehicle is to do now. Whoever moves it brings it to a stand when the deadline
+/// has passed and no newer command came: then the planner is dead, or late.
+struct Command {
+  static constexpr MessageType kType = MessageType::command;
+  static constexpr std::uint16_t kVersion = 1;
+  MessageHeader header;  // stamp_ns: of the pose that it was made for
+  double speed_mps;      // negative: backwards
+  double curvature_per_m;
+  std::int64_t mono_deadline_ns;
+  std::uint32_t mode;  // PlanMode
+  std::uint32_t reserved;
+};
+
 enum class HealthState : std::uint32_t { starting = 0, ok = 1, degraded = 2, failed = 3, stopping = 4 };
 
 /// Topic "health", at 1 Hz from every process.
@@ -178,6 +246,9 @@ static_assert(std::is_trivially_copyable_v<Odometry> && std::is_standard_layout_
 static_assert(std::is_trivially_copyable_v<BrickMap> && std::is_standard_layout_v<BrickMap>);
 static_assert(std::is_trivially_copyable_v<Layers> && std::is_standard_layout_v<Layers>);
 static_assert(std::is_trivially_copyable_v<Progress> && std::is_standard_layout_v<Progress>);
+static_assert(std::is_trivially_copyable_v<Course> && std::is_standard_layout_v<Course>);
+static_assert(std::is_trivially_copyable_v<Plan> && std::is_standard_layout_v<Plan>);
+static_assert(std::is_trivially_copyable_v<Command> && std::is_standard_layout_v<Command>);
 static_assert(std::is_trivially_copyable_v<Health> && std::is_standard_layout_v<Health>);
 
 }  // namespace gvom::ipc

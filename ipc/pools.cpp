@@ -17,6 +17,7 @@ constexpr std::uint64_t kPublisherChunks = 2;  // one loaned, the last one sent
 constexpr std::uint64_t kOtherReaders = 4;     // recorder, bridge, gvomctl and one more
 constexpr std::uint64_t kOtherProcesses = 8;   // odometry, fusion, broker, tools: all publish Health
 constexpr std::uint64_t kHeldFixed = 2;        // messages of fixed size that a reader holds
+constexpr std::uint64_t kPlanTalkers = 2;      // that publish a course, a plan or commands at the same time
 constexpr std::uint64_t kHeldByPlanner = 2;    // the layers it works on and the next ones
 
 /// What one topic asks of the pools.
@@ -29,6 +30,11 @@ struct Demand {
 
 std::uint64_t reader_chunks(std::uint64_t queue, std::uint64_t held) {
   return queue + held + 1;
+}
+
+std::uint64_t planning_chunks(std::uint64_t planners, std::uint64_t queue) {
+  return kPlanTalkers * (kPublisherChunks + kPlannerHistory) +
+         (planners + kOtherReaders) * reader_chunks(queue, kHeldFixed);
 }
 
 std::vector<Demand> fixed_demands(const PoolSpec& spec) {
@@ -44,7 +50,10 @@ std::vector<Demand> fixed_demands(const PoolSpec& spec) {
                (lidars + 2 + kOtherReaders) * reader_chunks(kProgressQueue, kHeldFixed)},
           {"health", keys, sizeof(Health),
            (lidars + planners + kOtherProcesses) * kPublisherChunks +
-               (planners + kOtherReaders) * reader_chunks(kHealthQueue, kHeldFixed)}};
+               (planners + kOtherReaders) * reader_chunks(kHealthQueue, kHeldFixed)},
+          {"course", keys, sizeof(Course), planning_chunks(planners, kCourseQueue)},
+          {"plan", keys, sizeof(Plan), planning_chunks(planners, kPlanQueue)},
+          {"command", keys, sizeof(Command), planning_chunks(planners, kCommandQueue)}};
 }
 
 std::vector<Demand> map_demands(const PoolSpec& spec) {

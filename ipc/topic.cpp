@@ -140,6 +140,41 @@ Complaint check_health(const std::byte* message, std::size_t bytes) {
                   too_many("stages", health.stage_count, Health::kMaxStages));
 }
 
+template <class Numbers>
+bool all_finite(const Numbers& numbers) {
+  return std::all_of(std::begin(numbers), std::end(numbers),
+                     [](double value) { return std::isfinite(value); });
+}
+
+Complaint check_course(const std::byte* message, std::size_t bytes) {
+  if (auto complaint = wrong_size(bytes, sizeof(Course))) return complaint;
+  const auto& course = as<Course>(message);
+  if (auto complaint = too_many("places", course.count, Course::kMaxPlaces)) return complaint;
+  for (std::uint32_t i = 0; i < course.count; ++i) {
+    const auto& place = course.places[i];
+    if (!(std::abs(place.x_m) <= kFarthest_m && std::abs(place.y_m) <= kFarthest_m))
+      return "has a place that is not finite, or over 10,000 km away";
+  }
+  return std::nullopt;
+}
+
+Complaint check_plan(const std::byte* message, std::size_t bytes) {
+  if (auto complaint = wrong_size(bytes, sizeof(Plan))) return complaint;
+  const auto& plan = as<Plan>(message);
+  if (auto complaint = bad_time({plan.mono_begun_ns, plan.mono_published_ns})) return complaint;
+  return first_of(too_many("points of its path", plan.path_count, Plan::kMaxPoints),
+                  too_many("points of its trajectory", plan.trajectory_count, Plan::kMaxPoints));
+}
+
+/// A vehicle moves by it.
+Complaint check_command(const std::byte* message, std::size_t bytes) {
+  if (auto complaint = wrong_size(bytes, sizeof(Command))) return complaint;
+  const auto& command = as<Command>(message);
+  if (!all_finite(std::initializer_list<double>{command.speed_mps, command.curvature_per_m}))
+    return "has a speed or a curvature that is not finite";
+  return bad_time({command.mono_deadline_ns});
+}
+
 Complaint check_layers(const std::byte* message, std::size_t bytes) {
   if (bytes < sizeof(Layers)) return wrong_size(bytes, sizeof(Layers));
   const auto& layers = as<Layers>(message);
@@ -219,6 +254,21 @@ Topic topic_of<Progress>() {
 template <>
 Topic topic_of<Health>() {
   return {"health", kAll, Health::kType, Health::kVersion, check_health, kHealthQueue};
+}
+
+template <>
+Topic topic_of<Course>() {
+  return {"course", kAll, Course::kType, Course::kVersion, check_course, kCourseQueue, kPlannerHistory};
+}
+
+template <>
+Topic topic_of<Plan>() {
+  return {"plan", kAll, Plan::kType, Plan::kVersion, check_plan, kPlanQueue, kPlannerHistory};
+}
+
+template <>
+Topic topic_of<Command>() {
+  return {"command", kAll, Command::kType, Command::kVersion, check_command, kCommandQueue, kPlannerHistory};
 }
 
 Topic layers_topic() {

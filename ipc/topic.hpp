@@ -20,6 +20,10 @@ inline constexpr std::uint32_t kLayersQueue = 2;
 inline constexpr std::uint32_t kLayersHistory = 1;
 inline constexpr std::uint32_t kProgressQueue = 64;
 inline constexpr std::uint32_t kHealthQueue = 32;
+inline constexpr std::uint32_t kCourseQueue = 1;
+inline constexpr std::uint32_t kPlanQueue = 2;
+inline constexpr std::uint32_t kCommandQueue = 1;
+inline constexpr std::uint32_t kPlannerHistory = 1;  // of all three
 
 /// What is wrong with a message of `bytes` whose header is right, in words; nothing if it is as its type
 /// says.
@@ -57,6 +61,12 @@ template <>
 Topic topic_of<Progress>();
 template <>
 Topic topic_of<Health>();
+template <>
+Topic topic_of<Course>();
+template <>
+Topic topic_of<Plan>();
+template <>
+Topic topic_of<Command>();
 Topic layers_topic();
 Topic voxel_map_topic();
 

@@ -74,7 +74,8 @@ TEST_CASE("another user's bell is named, and not rung") {
 TEST_CASE("each type of message has readers of its own, and no process is in their sets") {
   std::uint32_t types = 0;
   for (const auto type : {MessageType::odometry, MessageType::buffer_map, MessageType::layers,
-                          MessageType::voxel_map, MessageType::health, MessageType::progress}) {
+                          MessageType::voxel_map, MessageType::health, MessageType::progress,
+                          MessageType::course, MessageType::plan, MessageType::command}) {
     CHECK((types & Doorbell::readers_of(type)) == 0);
     types |= Doorbell::readers_of(type);
   }

@@ -2,7 +2,9 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "ipc/layout.hpp"
@@ -33,6 +35,16 @@ std::string refusal_of(const Spoil& spoil) {
   return refusal_of(map);
 }
 
+/// Of a message of fixed size that is right but for what is done to it.
+template <class M>
+std::string refusal_of_fixed(const std::function<void(M&)>& spoil) {
+  auto message = std::make_unique<M>();
+  message->header = {kMagic, static_cast<std::uint16_t>(M::kType), M::kVersion, sizeof(M), 1, 0, 0};
+  spoil(*message);
+  const auto refusal = check_message(topic_of<M>(), reinterpret_cast<std::byte*>(message.get()), sizeof(M));
+  return refusal ? refusal->why : "";
+}
+
 }  // namespace
 
 TEST_CASE("a message of another version is refused, and the release that it is of is named") {
@@ -54,10 +66,38 @@ TEST_CASE("a message of another version is refused, and the release that it is o
   CHECK(refusal_of_version(*buffer_map_topic("top"), 2) == "message of gvom 0.2 (version 2" + ours + "4)");
   CHECK(refusal_of_version(voxel_map_topic(), 1) == "message of gvom 0.1 (version 1" + ours + "4)");
   CHECK(refusal_of_version(topic_of<Health>(), 2) == "message of gvom 0.2 (version 2" + ours + "3)");
-  for (const Topic& topic : {layers_topic(), *buffer_map_topic("top"), voxel_map_topic(), topic_of<Health>(),
-                             topic_of<Odometry>(), topic_of<Progress>()})
+  for (const Topic& topic :
+       {layers_topic(), *buffer_map_topic("top"), voxel_map_topic(), topic_of<Health>(), topic_of<Odometry>(),
+        topic_of<Progress>(), topic_of<Course>(), topic_of<Plan>(), topic_of<Command>()})
     for (int version = 0; version < topic.version + 3; ++version)
       if (version != topic.version) CHECK_FALSE(refusal_of_version(topic, version).empty());
+}
+
+TEST_CASE("a vehicle is not moved by numbers that are none") {
+  CHECK(refusal_of_fixed<Command>([](Command&) {}).empty());
+  for (const double number : {kNan, HUGE_VAL, -HUGE_VAL}) {
+    CHECK(refusal_of_fixed<Command>([&](Command& command) { command.speed_mps = number; }) ==
+          "it has a speed or a curvature that is not finite");
+    CHECK_FALSE(
+        refusal_of_fixed<Command>([&](Command& command) { command.curvature_per_m = number; }).empty());
+    CHECK_FALSE(refusal_of_fixed<Course>([&](Course& course) {
+                  course.count = 2;
+                  course.places[1].y_m = number;
+                }).empty());
+  }
+  CHECK(refusal_of_fixed<Course>([](Course& course) {
+          course.places[0].x_m = kNan;
+        }).empty());  // not one of it
+}
+
+TEST_CASE("more places and points than a message has room for are refused") {
+  CHECK(refusal_of_fixed<Course>([](Course& course) { course.count = Course::kMaxPlaces; }).empty());
+  CHECK(refusal_of_fixed<Course>([](Course& course) { course.count = Course::kMaxPlaces + 1; }) ==
+        "it claims 257 places, at most 256 can be");
+  CHECK(refusal_of_fixed<Plan>([](Plan& plan) { plan.path_count = Plan::kMaxPoints; }).empty());
+  CHECK_FALSE(refusal_of_fixed<Plan>([](Plan& plan) { plan.path_count = Plan::kMaxPoints + 1; }).empty());
+  CHECK_FALSE(
+      refusal_of_fixed<Plan>([](Plan& plan) { plan.trajectory_count = Plan::kMaxPoints + 1; }).empty());
 }
 
 TEST_CASE("fractions of a sweep's columns that cannot be are refused") {

@@ -104,14 +104,14 @@ TEST_CASE("messages of one size share a pool with the chunks of both") {
   REQUIRE(voxel_map_capacity(spec) == buffer_map_capacity(spec));
   const auto plan = plan_pools(spec);
   REQUIRE(plan);
-  CHECK(plan->pools.size() == 5);
+  CHECK(plan->pools.size() == 7);
   CHECK(plan->pools.back().chunks == (2 + 16 + 2 + 1) + (2 + 4 * 3) + 4);
 }
 
 TEST_CASE("without a voxel map there is no pool for it") {
   PoolSpec spec;
   spec.voxel_map = false;
-  CHECK(plan_pools(spec)->pools.size() == 5);
+  CHECK(plan_pools(spec)->pools.size() == 7);
   CHECK(plan_pools(spec)->pools.back().chunk_bytes < voxel_map_capacity(spec));
 }
 
