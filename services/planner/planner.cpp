@@ -1,0 +1,167 @@
+#include "services/planner/planner.hpp"
+
+#include <utility>
+
+#include "services/planner/cycle.hpp"
+#include "services/planner/room.hpp"
+#include "services/planner/words.hpp"
+
+namespace gvom::planner {
+namespace {
+
+constexpr double kStands_mps = 0.1;
+
+Pose2 flat(const Pose& pose) {
+  const Eigen::Vector3d forward = pose.rotation * Eigen::Vector3d::UnitX();
+  return {pose.translation_m.x(), pose.translation_m.y(), std::atan2(forward.y(), forward.x())};
+}
+
+}  // namespace
+
+Planner::Planner(const PlannerConfig& config, int n_xy) : impl_(std::make_unique<Impl>(config, n_xy)) {}
+Planner::~Planner() = default;
+void Planner::set_course(std::vector<Eigen::Vector2d> waypoints_m) {
+  impl_->set_course(std::move(waypoints_m));
+}
+const Plan& Planner::cycle(const MapView* map, const State& state, const Senses& senses) {
+  return impl_->cycle(map, state, senses);
+}
+
+Planner::Impl::Impl(const PlannerConfig& config, int n_xy)
+    : config_(config),
+      costs_(config.costmap, config.vehicle, n_xy),
+      search_(n_xy),
+      next_search_(n_xy),
+      optimiser_(config),
+      fan_(config),
+      profile_(config, fan_.most_points()),
+      prediction_(config),
+      closed_(n_xy),
+      retreat_(config),
+      course_(config),
+      progress_(config.give_up_s) {
+  const auto longest_path = static_cast<std::size_t>(n_xy) * 8;
+  plan_.searched.reserve(longest_path);
+  guide_.reserve(longest_path);
+  plan_.path.reserve(static_cast<std::size_t>(config.horizon_m / PathOptimiser::kStep_m) + 2);
+  plan_.trajectory.reserve(fan_.most_points());
+  plan_.why.reserve(kLongestWhy);
+}
+
+void Planner::Impl::set_course(std::vector<Eigen::Vector2d> waypoints_m) {
+  course_.set(std::move(waypoints_m));
+  closed_.clear();
+  fan_.forget();
+  progress_.begin();
+  arrived_ = gave_up_ = false;
+}
+
+const Plan& Planner::Impl::cycle(const MapView* map, const State& state, const Senses& senses) {
+  plan_.searched.clear();
+  plan_.path.clear();
+  plan_.trajectory.clear();
+  plan_.seen_m = 0;
+  observe(state, senses);
+  if (may_plan(map, senses)) {
+    drive(*map, senses);
+    watch_progress();
+  } else {
+    progress_.wait(stamp_ns_);
+  }
+  prediction_.add(plan_.command);
+  return plan_;
+}
+
+void Planner::Impl::observe(const State& state, const Senses& senses) {
+  stamp_ns_ = state.stamp_ns;
+  now_ = {flat(state.T_odom_base), state.speed_mps, state.curvature_per_m};
+  if (senses.odometry_jumped) {
+    jump_ns_ = stamp_ns_;
+    retreat_.forget();
+    closed_.clear();
+    fan_.forget();
+  }
+  retreat_.observe(now_.pose);
+  const std::size_t before = course_.index();
+  course_.update(now_.pose.place());
+  if (course_.index() != before) progress_.begin();
+  plan_.waypoint = course_.index();
+}
+
+bool Planner::Impl::may_plan(const MapView* map, const Senses& senses) {
+  if (course_.empty()) {
+    stop(Reason::no_course);
+  } else if (gave_up_) {
+    stop(Reason::no_progress, Mode::gave_up);
+    say(plan_.why, "gave up: in %.0f s it came no nearer to waypoint %zu", config_.give_up_s, plan_.waypoint);
+  } else if (arrived_ || (course_.is_last() && course_.at_goal(now_.pose.place()) && stands())) {
+    arrived_ = true;
+    stop(Reason::near_goal, Mode::arrived);
+    say(plan_.why, "arrived: %.1f m from the last waypoint", (now_.pose.place() - course_.waypoint()).norm());
+  } else if (map == nullptr) {
+    stop(Reason::no_layers);
+  } else if (jump_ns_ && map->stamp_ns <= *jump_ns_) {
+    stop(Reason::odometry_jump);
+    say(plan_.why, "stops: odometry jumped, and the map is %.2f s older than that",
+        static_cast<double>(*jump_ns_ - map->stamp_ns) * 1e-9);
+  } else if (senses.layers_age_s > config_.max_age_s) {
+    stop(Reason::stale_layers);
+    say(plan_.why, "stops: the layers are %.2f s old, more than %.2f s", senses.layers_age_s,
+        config_.max_age_s);
+  } else {
+    jump_ns_.reset();
+    return true;
+  }
+  return false;
+}
+
+void Planner::Impl::drive(const MapView& map, const Senses& senses) {
+  view_ = closed_.close(map);
+  costs_.update(view_);
+  const Predicted& at = prediction_.from(now_);
+  room_now_m_ = room_m(costs_, config_.vehicle, now_.pose);
+  if (retreat_.backs()) return back(at, senses);
+  if (senses.blind_ahead) {
+    stop(Reason::blind_side);
+    return say(plan_.why, "stops: no lidar that looks ahead has a map in the window");
+  }
+  if (!find_way(map, at)) return;
+  if (now_.speed_mps < -kStands_mps) {
+    stop(Reason::dead_end);
+    return say(plan_.why, "stops: has backed %.1f m out of a dead end", retreat_.backed_m());
+  }
+  make_guide();
+  plan_.path = optimiser_.optimise(costs_, at.pose, at.curvature_per_m, at.speed_mps, guide_);
+  const Trajectory* best = fan_.choose(fan_input(at));
+  if (best != nullptr) drive_on(*best, at, senses);
+  if (best == nullptr || !best->leads_on) return stand_without_trajectory(senses);
+  retreat_.clear();
+}
+
+FanInput Planner::Impl::fan_input(const Predicted& at) const {
+  FanInput input;
+  input.map = &view_;
+  input.costs = &costs_;
+  input.cost_to_go = search_.cost_to_go();
+  input.path = &plan_.path;
+  input.waypoint_m = course_.goal();
+  input.next_m = course_.next();
+  if (knows_next_) input.next_cost_to_go = next_search_.cost_to_go();
+  input.pose = at.pose;
+  input.curvature_per_m = at.curvature_per_m;
+  input.speed_mps = std::max(0.0, at.speed_mps);
+  return input;
+}
+
+bool Planner::Impl::stands() const {
+  return std::abs(now_.speed_mps) < kStands_mps;
+}
+
+void Planner::Impl::stop(Reason reason, Mode mode) {
+  plan_.mode = mode;
+  plan_.reason = reason;
+  plan_.command = {0, plan_.command.curvature_per_m};
+  say(plan_.why, "stops: %s", words_of(reason));
+}
+
+}  // namespace gvom::planner

@@ -1,0 +1,131 @@
+// The planner drives a vehicle over maps that do not change.
+#include <catch2/catch.hpp>
+
+#include "services/planner/search.hpp"
+#include "tests/planner_cycle/loop.hpp"
+
+namespace gvom::test {
+namespace {
+
+using Eigen::Vector2d;
+using planner::Mode;
+using planner::Plan;
+using planner::PlannerConfig;
+
+struct Disc {
+  Vector2d middle_m;
+  double radius_m;
+};
+
+// From the vehicle's outline to the discs' rims, by points along the outline.
+double nearest_m(const SmallVehicle& vehicle, const std::vector<Disc>& discs) {
+  double least_m = 1e9;
+  for (int i = -10; i <= 10; ++i)
+    for (const double side : {-1.0, 1.0})
+      for (const Vector2d& place : {vehicle.outline(i / 10.0, side), vehicle.outline(side, i / 10.0)})
+        for (const Disc& disc : discs)
+          least_m = std::min(least_m, (place - disc.middle_m).norm() - disc.radius_m);
+  return least_m;
+}
+
+PlannerConfig car() {
+  PlannerConfig config;
+  config.vehicle.steering = planner::Steering::ackermann;
+  config.vehicle.front_m = 1.9;
+  config.vehicle.rear_m = 0.6;
+  config.vehicle.front_axle_m = 1.4;
+  config.vehicle.rear_axle_m = 0.0;
+  config.vehicle.max_curvature_per_m = 0.35;
+  return config;
+}
+
+TEST_CASE("Between discs it drives a slalom to its goal and touches none") {
+  for (const bool steers : {false, true}) {
+    const PlannerConfig config = steers ? car() : PlannerConfig{};
+    SmallMap map(128);
+    std::vector<Disc> discs;
+    for (int i = 0; i < 4; ++i) discs.push_back({{14.0 + 6 * i, i % 2 == 0 ? 26.5 : 23.5}, 2.4});
+    discs.push_back({{14, 19}, 2});
+    discs.push_back({{26, 31}, 2});
+    for (const Disc& disc : discs)
+      map.obstacle(test::disc(disc.middle_m.x(), disc.middle_m.y(), disc.radius_m));
+    Loop loop(config, map, {5, 25, 0});
+    loop.planner.set_course({{44, 25}});
+    double nearest = 1e9, fastest_mps = 0;
+    const bool arrives = loop.until(Mode::arrived, 60, [&](const Plan&) {
+      nearest = std::min(nearest, nearest_m(loop.vehicle, discs));
+      fastest_mps = std::max(fastest_mps, loop.vehicle.speed_mps());
+    });
+    CAPTURE(steers, nearest, fastest_mps, loop.vehicle.pose().x_m, loop.vehicle.pose().y_m);
+    CHECK(arrives);
+    CHECK(nearest > 0);
+    CHECK(fastest_mps > 1.5);
+  }
+}
+
+TEST_CASE("Every command and trajectory is within the vehicle's limits") {
+  const PlannerConfig config = car();
+  SmallMap map(128);
+  map.obstacle(disc(20, 25.5, 3));
+  map.obstacle(disc(28, 21, 2));
+  Loop loop(config, map, {5, 25, 0.5});
+  loop.planner.set_course({{30, 40}, {10, 40}});
+  int driven = 0;
+  loop.until(Mode::arrived, 40, [&](const Plan& plan) {
+    REQUIRE(std::abs(plan.command.curvature_per_m) <= config.vehicle.max_curvature_per_m + 1e-9);
+    REQUIRE(plan.command.speed_mps <= config.speed_mps);
+    for (std::size_t i = 1; i < plan.trajectory.size(); ++i) {
+      const planner::TrajectoryPoint &at = plan.trajectory[i], &before = plan.trajectory[i - 1];
+      REQUIRE(std::abs(at.curvature_per_m) <= config.vehicle.max_curvature_per_m + 1e-9);
+      const double change = std::abs(at.curvature_per_m - before.curvature_per_m) / 0.25;
+      REQUIRE(change * at.speed_mps <= config.vehicle.max_curvature_rate_per_m_s + 1e-6);
+      REQUIRE(at.speed_mps * at.speed_mps * std::abs(at.curvature_per_m) <=
+              config.vehicle.max_lateral_accel_mps2 + 1e-6);
+      ++driven;
+    }
+  });
+  CHECK(driven > 1000);
+}
+
+TEST_CASE("It drives around a mound that would tip it, though no flag forbids it") {
+  const PlannerConfig config;
+  SmallMap map(128);
+  // 1.5 m high and 6 m wide: up to 0.8 m/m, which is 0.67 rad.
+  const auto z_m = [](double x, double y) {
+    const double off_m = std::hypot(x - 22, y - 25);
+    return off_m < 3 ? 0.75 * (1 + std::cos(off_m / 3 * 3.14159265)) : 0.0;
+  };
+  map.shape(z_m);
+  Loop loop(config, map, {5, 25, 0});
+  loop.planner.set_course({{40, 25.3}});
+  double most_rad = 0;
+  const bool arrives = loop.until(Mode::arrived, 60, [&](const Plan&) {
+    // By the heights themselves, under the middles of the bumpers and of the sides.
+    const Vector2d front = loop.vehicle.outline(0.625, 0), rear = loop.vehicle.outline(-0.625, 0);
+    const Vector2d left = loop.vehicle.outline(0, 0.8), right = loop.vehicle.outline(0, -0.8);
+    most_rad = std::max({most_rad, std::abs(z_m(front.x(), front.y()) - z_m(rear.x(), rear.y())) / 1.0,
+                         std::abs(z_m(left.x(), left.y()) - z_m(right.x(), right.y())) / 1.12});
+  });
+  CAPTURE(loop.vehicle.pose().x_m, loop.vehicle.pose().y_m);
+  CHECK(arrives);
+  CHECK(most_rad < 0.5);
+  CHECK(most_rad > 0.01);  // it touches its foot
+}
+
+TEST_CASE("A course of three waypoints is driven through without a stop") {
+  SmallMap map(128);
+  Loop loop({}, map, {5, 10, 0});
+  loop.planner.set_course({{20, 12}, {32, 22}, {32, 42}});
+  double slowest_mps = 9;
+  std::size_t waypoint = 0;
+  const bool arrives = loop.until(Mode::arrived, 40, [&](const Plan& plan) {
+    if (plan.waypoint == 1) slowest_mps = std::min(slowest_mps, loop.vehicle.speed_mps());
+    waypoint = std::max(waypoint, plan.waypoint);
+  });
+  CHECK(arrives);
+  CHECK(waypoint == 2);
+  CHECK(slowest_mps > 1.0);
+}
+
+}  // namespace
+}  // namespace gvom::test

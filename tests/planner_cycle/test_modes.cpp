@@ -1,0 +1,146 @@
+// When the planner stops, and what it says.
+#include <catch2/catch.hpp>
+
+#include "services/planner/course.hpp"
+#include "tests/planner_cycle/loop.hpp"
+
+namespace gvom::test {
+namespace {
+
+using planner::Mode;
+using planner::Plan;
+using planner::PlannerConfig;
+using planner::Reason;
+
+// A flat map of 51 m, from which 8 m to drive.
+struct Flat {
+  SmallMap map{128};
+  PlannerConfig config;
+  Loop loop{config, map, {10, 25, 0}};
+};
+
+void check_stop(const Plan& plan, Reason reason, const std::string& words) {
+  CHECK(plan.mode == Mode::stop);
+  CHECK(plan.reason == reason);
+  CHECK(plan.command.speed_mps == 0);
+  CHECK_THAT(plan.why, Catch::Contains(words));
+}
+
+TEST_CASE("Without a course it stands") {
+  Flat flat;
+  check_stop(flat.loop.step(), Reason::no_course, "no course");
+}
+
+TEST_CASE("Without layers, or with old ones, it stops") {
+  Flat flat;
+  flat.loop.planner.set_course({{40, 25}});
+  for (int i = 0; i < 20; ++i) flat.loop.step();
+  CHECK(flat.loop.vehicle.speed_mps() > 1);
+  flat.loop.senses.layers_age_s = 0.8;
+  check_stop(flat.loop.step(), Reason::stale_layers, "0.80 s old, more than 0.50 s");
+  check_stop(flat.loop.planner.cycle(nullptr, flat.loop.vehicle.state(), {}), Reason::no_layers, "no layers");
+  flat.loop.senses.layers_age_s = 0.1;
+  CHECK(flat.loop.step().mode == Mode::drive);
+}
+
+TEST_CASE("It does not drive where no lidar looks") {
+  Flat flat;
+  flat.loop.planner.set_course({{40, 25}});
+  flat.loop.senses.blind_ahead = true;
+  check_stop(flat.loop.step(), Reason::blind_side, "no lidar that looks ahead");
+  flat.loop.senses = {};
+  flat.loop.senses.blind_behind = true;
+  CHECK(flat.loop.step().mode == Mode::drive);
+}
+
+TEST_CASE("After a jump of odometry only a map from after it is driven by") {
+  Flat flat;
+  flat.loop.planner.set_course({{40, 25}});
+  for (int i = 0; i < 10; ++i) flat.loop.step();
+  const planner::State state = flat.loop.vehicle.state();
+  const planner::MapView before = flat.map.view(state.stamp_ns - 200'000'000);
+  planner::Senses jumped;
+  jumped.odometry_jumped = true;
+  check_stop(flat.loop.planner.cycle(&before, state, jumped), Reason::odometry_jump, "0.20 s older");
+  check_stop(flat.loop.planner.cycle(&before, state, {}), Reason::odometry_jump, "odometry jumped");
+  const planner::MapView after = flat.map.view(state.stamp_ns + 1);
+  CHECK(flat.loop.planner.cycle(&after, state, {}).mode == Mode::drive);
+}
+
+TEST_CASE("A wall across the map leaves no way, and after a while it gives up") {
+  Flat flat;
+  flat.config.give_up_s = 5;
+  flat.map.obstacle(box(25, 0, 26.2, 52));
+  Loop loop(flat.config, flat.map, {10, 25, 0});
+  loop.planner.set_course({{40, 25}});
+  check_stop(loop.step(), Reason::no_way, "no way to the waypoint, waypoint 0, 30.0 m away");
+  CHECK_FALSE(loop.until(Mode::gave_up, 4.8));
+  CHECK(loop.until(Mode::gave_up, 0.6));
+  CHECK_THAT(loop.step().why, Catch::Contains("in 5 s it came no nearer to waypoint 0"));
+  loop.planner.set_course({{20, 25}});
+  CHECK(loop.step().mode == Mode::drive);
+}
+
+TEST_CASE("Time without a map is no reason to give up") {
+  Flat flat;
+  flat.config.give_up_s = 5;
+  Loop loop(flat.config, flat.map, {10, 25, 0});
+  loop.planner.set_course({{40, 25}});
+  loop.step();
+  loop.senses.layers_age_s = 9;
+  CHECK_FALSE(loop.until(Mode::gave_up, 20));
+  loop.senses.layers_age_s = 0;
+  CHECK(loop.step().mode == Mode::drive);
+}
+
+TEST_CASE("A waypoint deep in an obstacle is none") {
+  Flat flat;
+  flat.map.obstacle(disc(40, 25, 6));
+  flat.loop.planner.set_course({{40, 25}});
+  check_stop(flat.loop.step(), Reason::goal_in_obstacle, "lies in an obstacle");
+}
+
+TEST_CASE("It does not drive out of an obstacle that it stands in") {
+  Flat flat;
+  flat.map.obstacle(disc(10, 25, 2.0));
+  flat.loop.planner.set_course({{40, 25}});
+  check_stop(flat.loop.step(), Reason::stands_in_obstacle, "stands in an obstacle");
+}
+
+TEST_CASE("It leaves what it stands too near to") {
+  Flat flat;
+  // Its right side is at y 24.3; the margin of 0.2 m holds the middle at 24.2.
+  flat.map.obstacle(box(9.0, 24.1, 11.2, 24.3));
+  flat.loop.planner.set_course({{40, 25}});
+  CHECK(flat.loop.until(Mode::arrived, 25));
+}
+
+TEST_CASE("At the last waypoint it stands within the tolerance and says so") {
+  Flat flat;
+  flat.loop.planner.set_course({{30, 25}});
+  REQUIRE(flat.loop.until(Mode::arrived, 15));
+  CHECK(std::hypot(flat.loop.vehicle.pose().x_m - 30, flat.loop.vehicle.pose().y_m - 25) < 1.0);
+  CHECK(flat.loop.vehicle.speed_mps() < 0.1);
+  CHECK_THAT(flat.loop.step().why, Catch::Contains("arrived"));
+}
+
+TEST_CASE("A waypoint that is passed by is left for the next one") {
+  Flat flat;
+  flat.loop.planner.set_course({{20, 25}, {40, 25}});
+  planner::Course course(flat.config);
+  course.set({{20, 25}, {40, 25}});
+  course.update({10, 25});
+  course.update({20.5, 29});  // 4.03 m beside it, beyond its plane
+  CHECK(course.index() == 1);
+  course.set({{20, 25}, {40, 25}});
+  course.update({10, 25});
+  course.update({19.5, 29});  // not beyond
+  CHECK(course.index() == 0);
+  course.update({20.5, 32});  // beyond, but 7 m beside
+  CHECK(course.index() == 0);
+  course.update({20, 26.4});  // within 1.5 m
+  CHECK(course.index() == 1);
+}
+
+}  // namespace
+}  // namespace gvom::test
