@@ -1,0 +1,117 @@
+// gvom-planner on the bus: it drives a vehicle to its goal, and brings it to a stand when what it needs is
+// not there, or it itself is not.
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <fstream>
+
+#include "services/common/config_file.hpp"
+#include "tests/processes/flat_world.hpp"
+#include "tests/processes/recordings.hpp"
+#include "tests/tools/temporary_folder.hpp"
+
+using namespace gvom;
+using namespace gvom::test;
+using ipc::PlanMode;
+using ipc::test::eventually;
+
+namespace {
+
+/// A broker, the flat world and the planner.
+struct Rig {
+  TemporaryFolder folder;
+  Graph graph{front_only(folder.path())};
+  FlatWorld world{services::load_vehicle_config(graph.vehicle().file, graph.vehicle().sets).value()};
+  std::unique_ptr<Program> planner = start();
+
+  std::unique_ptr<Program> start(const std::vector<std::string>& more = {}) {
+    return graph.start("gvom-planner", more);
+  }
+  void end() {
+    world.leave();
+    graph.stop();
+  }
+  [[nodiscard]] bool drives() const {
+    return eventually([&] { return world.speed_mps() > 1.0; });
+  }
+  [[nodiscard]] bool stands() const {
+    return eventually([&] { return world.speed_mps() == 0; });
+  }
+  [[nodiscard]] bool says(const std::string& words) const {
+    return eventually([&] { return world.why().find(words) != std::string::npos; });
+  }
+};
+
+}  // namespace
+
+TEST_CASE("the planner drives to a goal that the bus gives it, and stops there") {
+  Rig rig;
+  REQUIRE(rig.world.is_up());
+  CHECK(rig.says("course"));
+  CHECK(rig.world.speed_mps() == 0);
+  rig.world.send_course(12, 0);
+  CHECK(rig.drives());
+  CHECK(eventually([&] { return rig.world.mode() == PlanMode::arrived; }));
+  CHECK(rig.stands());
+  CHECK(std::abs(rig.world.x_m() - 12) < 1.5);
+  CHECK(rig.world.deadlines_passed() == 0);
+  CHECK(rig.planner->stop() == 0);
+  rig.end();
+}
+
+TEST_CASE("it stops, says why, and goes on: without layers, without odometry, with a blind side") {
+  Rig rig;
+  REQUIRE(rig.world.is_up());
+  rig.world.send_course(1000, 0);
+  REQUIRE(rig.drives());
+  rig.world.let_layers(false);
+  CHECK(rig.stands());
+  CHECK(rig.says("layers"));
+  rig.world.let_layers(true);
+  CHECK(rig.drives());
+
+  rig.world.let_odometry(false);
+  CHECK(rig.stands());
+  CHECK(rig.says("no odometry"));
+  rig.world.let_odometry(true);
+  CHECK(rig.drives());
+
+  rig.world.lose_front(true);
+  CHECK(rig.stands());
+  CHECK(rig.says("lidar"));
+  rig.world.lose_front(false);
+  CHECK(rig.drives());
+  CHECK(rig.world.deadlines_passed() == 0);  // commands to stand still came all the time
+  CHECK(rig.planner->stop() == 0);
+  rig.end();
+}
+
+TEST_CASE("a planner that is killed leaves a deadline, and its successor goes on") {
+  Rig rig;
+  REQUIRE(rig.world.is_up());
+  rig.world.send_course(1000, 0);
+  REQUIRE(rig.drives());
+  rig.planner->kill_asleep();
+  CHECK(rig.stands());
+  CHECK(rig.world.deadlines_passed() == 1);
+
+  rig.planner = rig.start();  // the bus still has the course
+  CHECK(rig.drives());
+  CHECK(rig.planner->stop() == 0);
+  CHECK(rig.stands());
+  rig.end();
+}
+
+TEST_CASE("a course may be a file, and one that is none ends the start") {
+  Rig rig;
+  REQUIRE(rig.world.is_up());
+  CHECK(eventually([&] { return rig.world.commands() > 0; }));
+  CHECK(rig.planner->stop() == 0);
+  std::ofstream(rig.folder.path() + "/course.csv") << "x_m,y_m\n6,0\n";
+  rig.planner = rig.start({"--course", "course.csv"});
+  CHECK(eventually([&] { return rig.world.mode() == PlanMode::arrived; }));
+  CHECK(rig.planner->stop() == 0);
+  std::ofstream(rig.folder.path() + "/course.csv") << "6;0\n";
+  CHECK(rig.start({"--course", "course.csv"})->wait() == 65);
+  rig.end();
+}
