@@ -3,7 +3,8 @@
 # shellcheck source=common.bash
 source "$(dirname "$0")/common.bash"
 
-units=(gvom-roudi.service gvom-fusion.service gvom-ingest@front.service gvom-odometry.service gvom-metrics.service)
+units=(gvom-roudi.service gvom-fusion.service gvom-ingest@front.service gvom-odometry.service gvom-planner.service
+  gvom-metrics.service)
 
 expect() {  # expect UNIT PROPERTY VALUE
   [[ $(property "$1" "$2") == "$3" ]] || fail "$1: $2 is $(property "$1" "$2"), not $3"

@@ -12,7 +12,7 @@ constexpr int kOdometry_hz = 100;
 constexpr int kOuster_hz = 10;
 constexpr double kBeforeRim_m = 3.0;  // as where a scene ends at a hole: nearer it leaves the window
 
-std::vector<sim::LidarModel> make_lidars(const Vehicle& vehicle, const DriveOptions& options) {
+std::vector<sim::LidarModel> make_lidars(const mapping::Vehicle& vehicle, const DriveOptions& options) {
   std::vector<sim::LidarModel> lidars;
   for (const LidarGeometry& geometry : vehicle.lidars) {
     const int number = static_cast<int>(lidars.size());
@@ -59,7 +59,7 @@ OdometryBuffer make_poses(const Stage& stage, const std::vector<sim::LidarModel>
 }
 
 Frame make_frame(const Stage& stage, const sim::LidarModel& lidar, std::int64_t stamp_ns,
-                 Pipeline& pipeline) {
+                 mapping::Pipeline& pipeline) {
   Frame frame;
   frame.time_s = seconds_of(stamp_ns);
   frame.driven_m = frame.time_s * stage.speed_mps();
@@ -105,7 +105,7 @@ class Recording {
 
 }  // namespace
 
-tl::expected<Figures, std::string> drive(const Stage& stage, const Vehicle& vehicle,
+tl::expected<Figures, std::string> drive(const Stage& stage, const mapping::Vehicle& vehicle,
                                          const DriveOptions& options, const Watch& watch) {
   const std::vector<sim::LidarModel> lidars = make_lidars(vehicle, options);
   const int warm_up = vehicle.mapper.window.buffer_size;
@@ -113,7 +113,8 @@ tl::expected<Figures, std::string> drive(const Stage& stage, const Vehicle& vehi
   const OdometryBuffer poses = make_poses(stage, lidars, span, options);
   auto recording = Recording::open(stage, lidars, span, options);
   if (!recording) return tl::unexpected(recording.error());
-  Pipeline pipeline(vehicle, static_cast<std::size_t>(lidars.front().beams()) * lidars.front().columns);
+  mapping::Pipeline pipeline(vehicle,
+                             static_cast<std::size_t>(lidars.front().beams()) * lidars.front().columns);
   Judge judge(stage.facts(), geometry_of(lidars.front(), vehicle.mapper.vehicle.base_height_m),
               stage.sight());
   const int every = stage.facts().holes.empty() && stage.facts().walkers.empty() ? 2 : 1;

@@ -8,9 +8,9 @@
 #include <tl/expected.hpp>
 
 #include "tools/evaluation/judge.hpp"
-#include "tools/evaluation/pipeline.hpp"
 #include "tools/evaluation/stage.hpp"
 #include "tools/evaluation/sweep_cache.hpp"
+#include "tools/mapping/pipeline.hpp"
 
 namespace gvom::evaluation {
 
@@ -27,7 +27,7 @@ using Watch = std::function<void(const Frame&)>;
 
 /// Drives the part of the path that says most: up to the first hole, else from the path's start. Judges every
 /// map where there are holes or walkers, else every second one. Errors say what could not be mapped or read.
-tl::expected<Figures, std::string> drive(const Stage& stage, const Vehicle& vehicle,
+tl::expected<Figures, std::string> drive(const Stage& stage, const mapping::Vehicle& vehicle,
                                          const DriveOptions& options, const Watch& watch = {});
 
 }  // namespace gvom::evaluation

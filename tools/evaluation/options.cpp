@@ -15,17 +15,17 @@ constexpr sim::OdometryNoise kFastNoise{0.02, 0.002};
 const std::vector<std::string> kQuickScenes = {"flat",   "hills",  "ditch-2m-b", "bank-down",
                                                "forest", "bushes", "street",     "walker"};
 
-tl::expected<Vehicle, std::string> make_vehicle(const Options& options) {
+tl::expected<mapping::Vehicle, std::string> make_vehicle(const Options& options) {
   if (options.vehicle.empty()) {
     if (!options.sets.empty()) return tl::unexpected(std::string("--set needs --vehicle"));
-    Vehicle vehicle;
+    mapping::Vehicle vehicle;
     vehicle.lidars.emplace_back();
     vehicle.lidars.back().T_base_sensor.translation().z() = kLidarHeight_m;
     return vehicle;
   }
   const auto config = services::load_vehicle_config(options.vehicle, options.sets);
   if (!config) return tl::unexpected(config.error().text());
-  Vehicle vehicle{config->mapper, {}};
+  mapping::Vehicle vehicle{config->mapper, {}};
   for (const services::LidarConfig& lidar : config->lidars) vehicle.lidars.push_back(lidar.geometry);
   return vehicle;
 }

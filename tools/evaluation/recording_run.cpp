@@ -5,11 +5,11 @@
 #include <system_error>
 #include <utility>
 
-#include "tools/evaluation/pipeline.hpp"
 #include "tools/evaluation/recording_judge.hpp"
 #include "tools/evaluation/recording_picture.hpp"
 #include "tools/evaluation/recordings.hpp"
 #include "tools/map/offline.hpp"
+#include "tools/mapping/pipeline.hpp"
 
 namespace gvom::evaluation {
 namespace {
@@ -43,7 +43,7 @@ tl::expected<Row, std::string> run_recording(const Plan& plan, const Recording& 
   if (!mapper) return wrong(mapper.error().what);
   const MapperConfig& config = recording.vehicle.mapper;
   const auto full = static_cast<std::size_t>(config.window.buffer_size) * recording.vehicle.lidars.size();
-  const LayerStorage layers(config.map);
+  const mapping::LayerStorage layers(config.map);
   RecordingJudge judge(recording.known);
   tl::expected<Frame, std::string> frame = tl::unexpected(std::string("no sweep could be mapped"));
   tools::MappedSweep mapped;

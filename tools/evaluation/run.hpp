@@ -24,7 +24,7 @@ struct DriveKind {
 struct Plan {
   std::vector<std::string> scenes;
   std::vector<DriveKind> drives;
-  Vehicle vehicle;
+  mapping::Vehicle vehicle;
   std::uint64_t seed = 1;
   int frames = 40;
   int threads = 2;                   ///< Scenes at a time; they do not change a figure.

@@ -12,6 +12,8 @@ namespace gvom::sim {
 
 class BinGrid {
  public:
+  static constexpr double kEdge = 3.2;  ///< Of a bin, metres.
+
   BinGrid() = default;
   explicit BinGrid(const std::vector<Primitive>& bodies);
 
@@ -25,8 +27,6 @@ class BinGrid {
   void visit_over(double x_m, double y_m, Visit&& visit) const;
 
  private:
-  static constexpr double kEdge = 3.2;  // metres
-
   struct Bin {
     std::size_t begin = 0;
     std::size_t end = 0;

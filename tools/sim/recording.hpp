@@ -7,6 +7,7 @@
 #include <tl/expected.hpp>
 
 #include "tools/sim/sweep_simulator.hpp"
+#include "tools/sim/trajectory.hpp"
 
 namespace gvom::sim {
 

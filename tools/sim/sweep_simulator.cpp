@@ -37,13 +37,9 @@ Eigen::Isometry3d column_to_sensor(const LidarModel& lidar, int column) {
 
 }  // namespace
 
-SweepSimulator::SweepSimulator(const World& world, const Trajectory& trajectory, const LidarModel& lidar,
+SweepSimulator::SweepSimulator(const World& world, const Motion& motion, const LidarModel& lidar,
                                const SweepOptions& options)
-    : world_(world),
-      trajectory_(trajectory),
-      lidar_(lidar),
-      options_(options),
-      directions_(beam_directions(lidar)) {}
+    : world_(world), motion_(motion), lidar_(lidar), options_(options), directions_(beam_directions(lidar)) {}
 
 /// What a beam reports: the range counts from the lidar's axis, so the way to the beam's origin is in it.
 Pixel SweepSimulator::measure_ray(const Ray& ray, const std::vector<Primitive>& walkers,
@@ -65,7 +61,7 @@ void SweepSimulator::measure_column(int sweep, int column, Pixel* pixels) const 
       derive(derive(options_.seed, 0x5EE9), static_cast<std::uint64_t>(lidar_.number));
   const std::uint64_t sweep_key = derive(lidar_key, static_cast<std::uint64_t>(sweep));
   const double time_s = 1e-9 * static_cast<double>(lidar_.stamp_ns(sweep, column) - kStartNs);
-  const Pose base = trajectory_.at(time_s);
+  const Pose base = motion_.at(time_s);
   const Eigen::Isometry3d T_odom_beams = Eigen::Translation3d(base.translation_m) * base.rotation *
                                          lidar_.T_base_sensor * column_to_sensor(lidar_, column);
   const std::vector<Primitive> walkers = world_.walkers_at(time_s);

@@ -6,8 +6,8 @@
 
 #include "core/sweep.hpp"
 #include "tools/sim/lidar_model.hpp"
+#include "tools/sim/motion.hpp"
 #include "tools/sim/sensor_losses.hpp"
-#include "tools/sim/trajectory.hpp"
 #include "tools/sim/world.hpp"
 
 namespace gvom::sim {
@@ -32,8 +32,8 @@ struct Pixel {
 /// its number.
 class SweepSimulator {
  public:
-  /// World, trajectory and lidar must outlive it.
-  SweepSimulator(const World& world, const Trajectory& trajectory, const LidarModel& lidar,
+  /// World, motion and lidar must outlive it. The motion must be known over what is measured.
+  SweepSimulator(const World& world, const Motion& motion, const LidarModel& lidar,
                  const SweepOptions& options);
 
   /// The sweep as the product decodes it from the sensor's packets: returns in the sensor's frame in metres,
@@ -55,7 +55,7 @@ class SweepSimulator {
                                   std::uint64_t key) const;
 
   const World& world_;
-  const Trajectory& trajectory_;
+  const Motion& motion_;
   const LidarModel& lidar_;
   SweepOptions options_;
   std::vector<Eigen::Vector3d> directions_;  // of the beams in the lidar's frame when it points along +x

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <optional>
 
-#include "tools/sim/noise.hpp"
-
 namespace gvom::sim {
 namespace {
 
@@ -18,7 +16,6 @@ constexpr double kHalfTrack = 0.5;  // and metres beside it
 constexpr double kHalfPatch = 0.2;  // of the ground that a wheel stands on
 constexpr int kPatchSamples = 5;    // along each of its edges
 constexpr std::int64_t kMargin = 50'000'000;
-constexpr double kNoiseMemory = 1.0;  // seconds
 
 using Points = std::vector<Eigen::Vector2d>;
 
@@ -141,31 +138,15 @@ Pose Trajectory::at(double time_s) const {
   return pose;
 }
 
-std::vector<StampedPose> make_odometry(const Trajectory& trajectory, const OdometrySpan& span,
+std::vector<StampedPose> make_odometry(const Motion& motion, const OdometrySpan& span,
                                        const OdometryNoise& noise, std::uint64_t seed) {
   const std::int64_t period = 1'000'000'000 / span.rate_hz;
-  const double kept = std::exp(-1e-9 * static_cast<double>(period) / kNoiseMemory);
-  const double fresh = std::sqrt(1.0 - kept * kept);
-  Random random(derive(seed, 0x0D0));
-  const auto draw = [&] {
-    const double x = random.normal(), y = random.normal(), z = random.normal();
-    return Eigen::Vector3d(x, y, z);
-  };
-  Eigen::Vector3d shift = draw();
-  Eigen::Vector3d turn = draw();
+  OdometryErrors errors(noise, span.rate_hz, seed);
   std::vector<StampedPose> poses;
   // Stamps are whole periods, so that they are short decimals.
   const std::int64_t first = (span.begin_ns - kMargin) / period * period;
-  for (std::int64_t stamp = first; stamp < span.end_ns + kMargin + period; stamp += period) {
-    StampedPose pose{stamp, trajectory.at(1e-9 * static_cast<double>(stamp - span.start_ns))};
-    pose.T_odom_base.translation_m += noise.position_m * shift;
-    const Eigen::Vector3d half = 0.5 * noise.rotation_rad * turn;  // small angles
-    const Eigen::Quaterniond wobble = Eigen::Quaterniond(1.0, half.x(), half.y(), half.z()).normalized();
-    pose.T_odom_base.rotation = (pose.T_odom_base.rotation * wobble).normalized();
-    poses.push_back(pose);
-    shift = kept * shift + fresh * draw();
-    turn = kept * turn + fresh * draw();
-  }
+  for (std::int64_t stamp = first; stamp < span.end_ns + kMargin + period; stamp += period)
+    poses.push_back({stamp, errors.disturb(motion.at(1e-9 * static_cast<double>(stamp - span.start_ns)))});
   return poses;
 }
 

@@ -5,7 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/pose.hpp"
+#include "tools/sim/motion.hpp"
+#include "tools/sim/odometry_errors.hpp"
 #include "tools/sim/terrain.hpp"
 
 namespace gvom::sim {
@@ -15,14 +16,14 @@ struct Drive {
   double base_height_m = 0.0;  ///< Of base_link above the ground (R9).
 };
 
-class Trajectory {
+class Trajectory : public Motion {
  public:
   /// `path_m` holds at least two places; its corners are rounded off. Each wheel stands on the mean height of
   /// a patch of ground, and bridges what is a hole or a face.
   Trajectory(const Terrain& terrain, const std::vector<Eigen::Vector2d>& path_m, const Drive& drive);
 
-  /// T_odom_base `time_s` after the start of the drive; straight on for a little before and after it too.
-  [[nodiscard]] Pose at(double time_s) const;
+  /// Straight on for a little before the start and after the end too.
+  [[nodiscard]] Pose at(double time_s) const override;
 
   /// From the path's first point to its end.
   [[nodiscard]] double seconds() const { return length_m_ / drive_.speed_mps; }
@@ -44,14 +45,6 @@ class Trajectory {
   std::vector<Station> stations_;
 };
 
-/// Odometry that is off by `noise`: errors with a memory of one second, so that they are smooth within a
-/// sweep as those of wheels and inertial sensors are. Standard deviations in metres (each axis) and
-/// radians (about each axis).
-struct OdometryNoise {
-  double position_m = 0.0;
-  double rotation_rad = 0.0;
-};
-
 /// Poses at `rate_hz`, from 50 ms before `begin_ns` to 50 ms after `end_ns`. `start_ns` is the start of
 /// the drive.
 struct OdometrySpan {
@@ -60,7 +53,7 @@ struct OdometrySpan {
   std::int64_t end_ns;
   int rate_hz;
 };
-std::vector<StampedPose> make_odometry(const Trajectory& trajectory, const OdometrySpan& span,
+std::vector<StampedPose> make_odometry(const Motion& motion, const OdometrySpan& span,
                                        const OdometryNoise& noise, std::uint64_t seed);
 
 }  // namespace gvom::sim

@@ -39,30 +39,6 @@ void take_class(ObjectClass what, int object, TruthColumn& column) {
   column.object = object;
 }
 
-ObjectClass class_of(Kind kind) {
-  switch (kind) {
-    case Kind::tree:
-      return ObjectClass::tree;
-    case Kind::bush:
-      return ObjectClass::bush;
-    case Kind::grass:
-      return ObjectClass::grass;
-    case Kind::rock:
-      return ObjectClass::rock;
-    case Kind::wall:
-      return ObjectClass::wall;
-    case Kind::car:
-      return ObjectClass::car;
-    case Kind::branch:
-      return ObjectClass::overhang;
-    case Kind::walker:
-      return ObjectClass::person;
-    case Kind::dust:
-      return ObjectClass::ground;
-  }
-  return ObjectClass::ground;
-}
-
 ObjectClass class_of(Surface surface) {
   switch (surface) {
     case Surface::ground:
@@ -137,6 +113,30 @@ void add_sample(const World& world, double x_m, double y_m, TruthColumn& column)
 }
 
 }  // namespace
+
+ObjectClass class_of(Kind kind) {
+  switch (kind) {
+    case Kind::tree:
+      return ObjectClass::tree;
+    case Kind::bush:
+      return ObjectClass::bush;
+    case Kind::grass:
+      return ObjectClass::grass;
+    case Kind::rock:
+      return ObjectClass::rock;
+    case Kind::wall:
+      return ObjectClass::wall;
+    case Kind::car:
+      return ObjectClass::car;
+    case Kind::branch:
+      return ObjectClass::overhang;
+    case Kind::walker:
+      return ObjectClass::person;
+    case Kind::dust:
+      return ObjectClass::ground;
+  }
+  return ObjectClass::ground;
+}
 
 TruthColumn sample_column(const World& world, double min_x_m, double min_y_m, double edge_m) {
   const int samples = static_cast<int>(std::ceil(edge_m / kSample));

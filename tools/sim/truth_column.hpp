@@ -6,6 +6,9 @@
 
 namespace gvom::sim {
 
+/// What a thing of that kind is to the truth; dust is nothing.
+ObjectClass class_of(Kind kind);
+
 /// A rectangle of ground, and what stands on it and hangs over it.
 struct TruthColumn {
   double lowest_m = std::numeric_limits<double>::infinity();

@@ -12,7 +12,7 @@
 #include "core/brick_map_storage.hpp"
 #include "core/mapper.hpp"
 
-namespace gvom::evaluation {
+namespace gvom::mapping {
 
 /// What maps, and with which lidars.
 struct Vehicle {
@@ -56,4 +56,4 @@ class Pipeline {
   std::uint64_t next_token_ = 0;
 };
 
-}  // namespace gvom::evaluation
+}  // namespace gvom::mapping

@@ -1,8 +1,8 @@
-#include "tools/evaluation/pipeline.hpp"
+#include "tools/mapping/pipeline.hpp"
 
 #include <utility>
 
-namespace gvom::evaluation {
+namespace gvom::mapping {
 
 LayerStorage::LayerStorage(const MapConfig& map) {
   const std::size_t columns = static_cast<std::size_t>(map.size_xy) * map.size_xy;
@@ -48,4 +48,4 @@ const LayerArrays& Pipeline::make_layers() {
   return layers_.arrays();
 }
 
-}  // namespace gvom::evaluation
+}  // namespace gvom::mapping

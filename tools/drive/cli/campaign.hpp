@@ -1,0 +1,46 @@
+// Many drives, and a table of them.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+#include "tools/drive/cli/session.hpp"
+
+namespace gvom::driving {
+
+struct CampaignOptions {
+  std::uint64_t first_seed = 1;
+  std::uint64_t last_seed = 1;
+  std::string course;  ///< Of `make_test_world`; empty: random worlds.
+  double length_m = 300;
+  sim::Sensor sensor = sim::Sensor::os1_64;
+  std::vector<double> noise{0.02, 0.002};  ///< Metres, radians.
+  int threads = 1;                         ///< Worlds at a time; they do not change a byte.
+  std::string folder;                      ///< Logs go there; empty: none.
+};
+
+/// "7" or "1..200".
+bool read_seeds(const std::string& text, CampaignOptions& options);
+
+struct Row {
+  std::string world;
+  std::uint64_t seed;
+  SessionResult result;
+};
+
+/// One line: what came of it, how long it took, what a planner that knows the world would take.
+std::string line_of(const Row& row);
+
+/// Sums over all: arrived of those with a way, mishaps by kind, times, speeds, clearances, cycles.
+std::string table_of(const std::vector<Row>& rows);
+
+/// Rows by seed. `done` is called from one thread at a time, as drives end. The first error, by seed.
+tl::expected<std::vector<Row>, std::string> run_campaign(const services::VehicleConfig& config,
+                                                         const CampaignOptions& options,
+                                                         const std::function<void(const Row&)>& done);
+
+}  // namespace gvom::driving

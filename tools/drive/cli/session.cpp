@@ -1,0 +1,134 @@
+#include "tools/drive/cli/session.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "services/planner/planner.hpp"
+
+namespace gvom::driving {
+namespace {
+
+constexpr double kMinute_s = 60;
+constexpr double kStands_mps = 0.05;
+constexpr double kLongStop_s = 1.0;
+
+Rig rig_of(const services::VehicleConfig& config, sim::Sensor sensor) {
+  Rig rig;
+  rig.model.limits = config.planner.vehicle;
+  rig.model.base_height_m = config.mapper.vehicle.base_height_m;
+  rig.mapping.mapper = config.mapper;
+  for (const services::LidarConfig& lidar : config.lidars) rig.mapping.lidars.push_back(lidar.geometry);
+  rig.sensor = sensor;
+  return rig;
+}
+
+/// The planner as a driver.
+class Chauffeur {
+ public:
+  Chauffeur(const services::VehicleConfig& config, const std::vector<Eigen::Vector2d>& waypoints_m,
+            const Onlooker& onlooker)
+      : planner_(config.planner, config.mapper.map.size_xy), onlooker_(onlooker) {
+    planner_.set_course(waypoints_m);
+  }
+
+  Decision operator()(const Seen& seen) {
+    const planner::MapView view = planner::map_view(seen.layers, seen.grid, seen.stamp_ns);
+    planner::Senses senses;
+    senses.layers_age_s = seen.layers_age_s;
+    const auto begun = std::chrono::steady_clock::now();
+    const planner::Plan& plan = planner_.cycle(&view, seen.state, senses);
+    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begun;
+    cycle_ms_.push_back(took.count());
+    if (onlooker_) onlooker_(seen, plan);
+    mode_ = plan.mode;
+    why_ = plan.why;
+    return {plan.command, mode_ == planner::Mode::gave_up || (mode_ == planner::Mode::arrived &&
+                                                              std::abs(seen.state.speed_mps) < kStands_mps)};
+  }
+
+  [[nodiscard]] planner::Mode mode() const { return mode_; }
+  [[nodiscard]] const std::string& why() const { return why_; }
+  [[nodiscard]] const std::vector<double>& cycle_ms() const { return cycle_ms_; }
+
+ private:
+  planner::Planner planner_;
+  const Onlooker& onlooker_;
+  planner::Mode mode_ = planner::Mode::stop;
+  std::string why_;
+  std::vector<double> cycle_ms_;
+};
+
+/// Stands that begin after the start and end before the end.
+int count_stops(const DriveLog& log) {
+  int stops = 0;
+  double stands_s = 0;
+  bool has_driven = false;
+  for (const DriveStep& step : log.steps) {
+    const bool stands = std::abs(step.speed_mps) < kStands_mps;
+    if (!stands && has_driven && stands_s > kLongStop_s) ++stops;
+    stands_s = stands ? stands_s + kTurn_s : 0;
+    has_driven = has_driven || !stands;
+  }
+  return stops;
+}
+
+void judge(const Chauffeur& driver, SessionResult& result) {
+  const DriveLog& log = result.log;
+  if (log.mishap)
+    result.outcome = Outcome::mishap;
+  else if (driver.mode() == planner::Mode::arrived)
+    result.outcome = Outcome::arrived;
+  else if (driver.mode() == planner::Mode::gave_up)
+    result.outcome = Outcome::gave_up;
+  result.end = log.mishap ? describe(*log.mishap) : driver.why();
+  result.false_stops = count_stops(log);
+  for (const DriveStep& step : log.steps)
+    result.top_speed_mps = std::max(result.top_speed_mps, step.speed_mps);
+  result.cycle_ms = driver.cycle_ms();
+}
+
+}  // namespace
+
+const char* words_of(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::arrived:
+      return "arrived";
+    case Outcome::mishap:
+      return "mishap";
+    case Outcome::gave_up:
+      return "gave up";
+    case Outcome::too_slow:
+      break;
+  }
+  return "too slow";
+}
+
+tl::expected<SessionResult, std::string> run_session(const CourseWorld& course,
+                                                     const services::VehicleConfig& config,
+                                                     const SessionOptions& options,
+                                                     const Onlooker& onlooker) {
+  const sim::World world(course.data);
+  const sim::GroundTruth truth =
+      sim::sample_truth(world, {config.mapper.map.resolution_xy_m, 0.0, options.threads});
+  const TrueObstacles obstacles(world, truth);
+  const planner::PlannerConfig& planning = config.planner;
+  SessionResult result;
+  result.way = TruthPlanner(truth, {planning.vehicle.width_m, planning.speed_mps, planning.goal_tolerance_m})
+                   .plan(course.start.place(), course.waypoints_m);
+  LoopOptions loop_options;
+  loop_options.seed = options.seed;
+  loop_options.odometry_noise = options.odometry_noise;
+  loop_options.threads = options.threads;
+  Loop loop(world, obstacles, rig_of(config, options.sensor), course.start, loop_options);
+  Chauffeur chauffeur(config, course.waypoints_m, onlooker);
+  const double most_s = kMinute_s + options.patience * (result.way ? result.way->seconds : kMinute_s);
+  auto log = drive(
+      loop, [&chauffeur](const Seen& seen) { return chauffeur(seen); }, most_s);
+  if (!log) return tl::unexpected(log.error());
+  result.log = std::move(*log);
+  judge(chauffeur, result);
+  return result;
+}
+
+}  // namespace gvom::driving
