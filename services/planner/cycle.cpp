@@ -25,9 +25,13 @@ bool Planner::Impl::find_way(const MapView& map, const Predicted& at) {
   const auto fails = [&] { return result == SearchResult::no_way || result == SearchResult::in_obstacle; };
   if (fails() && !closed_.empty()) {
     closed_.clear();
-    view_ = map;
+    view_ = movers_.close(map);
     costs_.update(view_);
     result = search(map, at);
+  }
+  if (fails() && !movers_.empty()) {
+    stop(Reason::mover);
+    return false;
   }
   if (fails()) {
     const double away_m = (now_.pose.place() - course_.waypoint()).norm();
@@ -84,7 +88,7 @@ void Planner::Impl::drive_on(const Trajectory& best, const Predicted& at, const 
       std::min({plan_.trajectory.front().speed_mps, speed_at(plan_.trajectory, now_mps * period_s),
                 now_mps + config_.vehicle.max_accel_mps2 * period_s});
   if (!lead_is_free()) {
-    stop(Reason::no_trajectory);
+    stop(movers_.empty() ? Reason::no_trajectory : Reason::mover);
     return say(plan_.why, "stops: something is in the way that it drives before it can answer");
   }
   plan_.mode = plan_.command.speed_mps > 0 ? Mode::drive : Mode::stop;
@@ -113,6 +117,7 @@ bool Planner::Impl::lead_is_free() const {
 }
 
 void Planner::Impl::stand_without_trajectory(const Senses& senses) {
+  if (!movers_.empty()) return stop(Reason::mover);
   stop(room_now_m_ < -kInObstacle_m ? Reason::stands_in_obstacle : Reason::no_trajectory);
   say(plan_.why, "stops: %s, and the nearest obstacle is %.1f m off%s", words_of(plan_.reason), room_now_m_,
       senses.blind_behind ? "; it cannot back, no lidar looks there" : "");

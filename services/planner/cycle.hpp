@@ -7,6 +7,7 @@
 #include "services/planner/closed_places.hpp"
 #include "services/planner/course.hpp"
 #include "services/planner/fan.hpp"
+#include "services/planner/movers.hpp"
 #include "services/planner/planner.hpp"
 #include "services/planner/prediction.hpp"
 #include "services/planner/retreat.hpp"
@@ -54,13 +55,14 @@ class Planner::Impl {
   SpeedProfile profile_;
   Prediction prediction_;
   ClosedPlaces closed_;
+  Movers movers_;
   Retreat retreat_;
   Course course_;
   Progress progress_;
 
   Plan plan_;
   std::vector<Eigen::Vector2d> guide_;  ///< The searched path, and on towards the waypoint after it.
-  MapView view_;                        ///< This cycle's map with what is closed.
+  MapView view_;                        ///< This cycle's map with what is closed and what movers may reach.
   Predicted now_;                       ///< The vehicle by its odometry.
   std::int64_t stamp_ns_ = 0;           ///< Of that.
   double room_now_m_ = 0;

@@ -37,6 +37,7 @@ Planner::Impl::Impl(const PlannerConfig& config, int n_xy)
       profile_(config, fan_.most_points()),
       prediction_(config),
       closed_(n_xy),
+      movers_(n_xy),
       retreat_(config),
       course_(config),
       progress_(config.give_up_s) {
@@ -64,7 +65,10 @@ const Plan& Planner::Impl::cycle(const MapView* map, const State& state, const S
   observe(state, senses);
   if (may_plan(map, senses)) {
     drive(*map, senses);
-    watch_progress();
+    if (movers_.empty())
+      watch_progress();
+    else
+      progress_.wait(stamp_ns_);
   } else {
     progress_.wait(stamp_ns_);
   }
@@ -79,6 +83,7 @@ void Planner::Impl::observe(const State& state, const Senses& senses) {
     jump_ns_ = stamp_ns_;
     retreat_.forget();
     closed_.clear();
+    movers_.clear();
     fan_.forget();
   }
   retreat_.observe(now_.pose);
@@ -116,7 +121,8 @@ bool Planner::Impl::may_plan(const MapView* map, const Senses& senses) {
 }
 
 void Planner::Impl::drive(const MapView& map, const Senses& senses) {
-  view_ = closed_.close(map);
+  movers_.observe(map, now_.pose, std::abs(now_.speed_mps));
+  view_ = movers_.close(closed_.close(map));
   costs_.update(view_);
   const Predicted& at = prediction_.from(now_);
   room_now_m_ = room_m(costs_, config_.vehicle, now_.pose);

@@ -51,6 +51,7 @@ enum class Reason : std::uint8_t {
   steep,
   curve,
   near_goal,
+  mover,     ///< Something that moves may get in its way: it waits.
   dead_end,  ///< Backs out of it.
   no_progress,
 };

@@ -53,6 +53,8 @@ const char* words_of(Reason reason) {
       return "a curve";
     case Reason::near_goal:
       return "the goal";
+    case Reason::mover:
+      return "something moves where it would drive";
     case Reason::dead_end:
       return "a dead end";
     case Reason::no_progress:
