@@ -91,6 +91,7 @@ void Planner::Impl::drive_on(const Trajectory& best, const Predicted& at, const 
     stop(movers_.empty() ? Reason::no_trajectory : Reason::mover);
     return say(plan_.why, "stops: something is in the way that it drives before it can answer");
   }
+  driven_.assign(plan_.trajectory.begin(), plan_.trajectory.end());
   plan_.mode = plan_.command.speed_mps > 0 ? Mode::drive : Mode::stop;
   if (plan_.reason == Reason::unseen_ground && plan_.mode == Mode::drive &&
       plan_.command.speed_mps <= config_.creep_mps)

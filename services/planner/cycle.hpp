@@ -43,6 +43,7 @@ class Planner::Impl {
   [[nodiscard]] FanInput fan_input(const Predicted& at) const;
   [[nodiscard]] bool lead_is_free() const;
   [[nodiscard]] bool stands() const;
+  /// Along what it drove last: that was free.
   void stop(Reason reason, Mode mode = Mode::stop);
 
   PlannerConfig config_;
@@ -68,6 +69,7 @@ class Planner::Impl {
   double room_now_m_ = 0;
   std::optional<std::int64_t> jump_ns_;          ///< Only a map from after it may be driven by.
   std::optional<std::int64_t> unseen_since_ns_;  ///< It stands before ground that does not show.
+  std::vector<TrajectoryPoint> driven_;          ///< The last trajectory that was driven.
   bool arrived_ = false;
   bool gave_up_ = false;
 };

@@ -46,6 +46,7 @@ Planner::Impl::Impl(const PlannerConfig& config, int n_xy)
   guide_.reserve(longest_path);
   plan_.path.reserve(static_cast<std::size_t>(config.horizon_m / PathOptimiser::kStep_m) + 2);
   plan_.trajectory.reserve(fan_.most_points());
+  driven_.reserve(fan_.most_points());
   plan_.why.reserve(kLongestWhy);
 }
 
@@ -84,6 +85,7 @@ void Planner::Impl::observe(const State& state, const Senses& senses) {
     retreat_.forget();
     closed_.clear();
     movers_.clear();
+    driven_.clear();
     fan_.forget();
   }
   retreat_.observe(now_.pose);
@@ -166,7 +168,12 @@ bool Planner::Impl::stands() const {
 void Planner::Impl::stop(Reason reason, Mode mode) {
   plan_.mode = mode;
   plan_.reason = reason;
-  plan_.command = {0, plan_.command.curvature_per_m};
+  plan_.command.speed_mps = 0;
+  if (driven_.empty() || now_.speed_mps < kStands_mps) return say(plan_.why, "stops: %s", words_of(reason));
+  const Predicted& at = prediction_.from(now_);
+  const auto away_m = [&](std::size_t i) { return (driven_[i].pose.place() - at.pose.place()).norm(); };
+  while (driven_.size() > 2 && away_m(1) < away_m(0)) driven_.erase(driven_.begin());
+  plan_.command.curvature_per_m = follow(config_, at, driven_);
   say(plan_.why, "stops: %s", words_of(reason));
 }
 

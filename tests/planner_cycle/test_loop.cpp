@@ -63,6 +63,35 @@ TEST_CASE("Between discs it drives a slalom to its goal and touches none") {
   }
 }
 
+TEST_CASE("Whenever it has to stop, it stops along what it drove") {
+  const PlannerConfig config;
+  SmallMap map(128);
+  for (const Disc& disc :
+       {Disc{{15, 26.4}, 2.4}, Disc{{19.5, 23.2}, 2.2}, Disc{{15, 20}, 2}, Disc{{22, 29.5}, 2.2}})
+    map.obstacle(test::disc(disc.middle_m.x(), disc.middle_m.y(), disc.radius_m));
+  for (double stop_s = 2; stop_s < 8; stop_s += 0.3) {
+    Loop loop(config, map, {5, 25, 0});
+    loop.planner.set_course({{44, 25}});
+    std::vector<planner::TrajectoryPoint> driven;
+    double time_s = 0, farthest_m = 0;
+    loop.until(Mode::arrived, stop_s + 4, [&](const Plan& plan) {
+      time_s += loop.period_s;
+      if (time_s >= stop_s) loop.senses.layers_age_s = 1;
+      if (!plan.trajectory.empty()) return driven.assign(plan.trajectory.begin(), plan.trajectory.end());
+      const auto off_m = [&](const planner::TrajectoryPoint& point) {
+        return (point.pose.place() - loop.vehicle.pose().place()).norm();
+      };
+      const auto nearest = std::min_element(
+          driven.begin(), driven.end(), [&](const auto& a, const auto& b) { return off_m(a) < off_m(b); });
+      // It begins where the vehicle is when a command takes effect.
+      if (nearest != driven.begin()) farthest_m = std::max(farthest_m, off_m(*nearest));
+    });
+    CAPTURE(stop_s, farthest_m);
+    CHECK(farthest_m < 0.25);  // points are 0.25 m apart
+    CHECK(loop.vehicle.speed_mps() == 0);
+  }
+}
+
 TEST_CASE("Every command and trajectory is within the vehicle's limits") {
   const PlannerConfig config = car();
   SmallMap map(128);
