@@ -30,7 +30,7 @@ bool Planner::Impl::find_way(const MapView& map, const Predicted& at) {
     result = search(map, at);
   }
   if (fails() && !movers_.empty()) {
-    stop(Reason::mover);
+    brake_for_movers(map, at);
     return false;
   }
   if (fails()) {
@@ -117,8 +117,22 @@ bool Planner::Impl::lead_is_free() const {
   });
 }
 
+void Planner::Impl::brake_for_movers(const MapView& map, const Predicted& at) {
+  view_ = closed_.close(map);
+  costs_.update(view_);
+  const SearchResult result = search(map, at);
+  if (result == SearchResult::found || result == SearchResult::cut) {
+    plan_.searched.assign(search_.path().begin(), search_.path().end());
+    knows_next_ = false;
+    make_guide();
+    plan_.path = optimiser_.optimise(costs_, at.pose, at.curvature_per_m, at.speed_mps, guide_);
+    if (const Trajectory* best = fan_.choose(fan_input(at)))
+      driven_.assign(best->points.begin(), best->points.end());
+  }
+  stop(Reason::mover);
+}
+
 void Planner::Impl::stand_without_trajectory(const Senses& senses) {
-  if (!movers_.empty()) return stop(Reason::mover);
   stop(room_now_m_ < -kInObstacle_m ? Reason::stands_in_obstacle : Reason::no_trajectory);
   say(plan_.why, "stops: %s, and the nearest obstacle is %.1f m off%s", words_of(plan_.reason), room_now_m_,
       senses.blind_behind ? "; it cannot back, no lidar looks there" : "");

@@ -38,6 +38,8 @@ class Planner::Impl {
   void drive_on(const Trajectory& best, const Predicted& at, const Senses& senses);
   void explain(const SpeedLimits& limits);
   void stand_without_trajectory(const Senses& senses);
+  /// Movers leave no way: it brakes along one that is free of what is there now.
+  void brake_for_movers(const MapView& map, const Predicted& at);
   void watch_unseen(const Senses& senses);
   void watch_progress();
   [[nodiscard]] FanInput fan_input(const Predicted& at) const;

@@ -7,17 +7,15 @@
 namespace gvom::planner {
 namespace {
 
-constexpr std::uint8_t kLethal = kHard | kNegative | kSteep;
+constexpr std::uint8_t kNotOpen = kHard | kSoft | kNegative | kSteep;
 constexpr double kBeside_m = 0.4;   // an edge may have been so far off
 constexpr double kCluster_m = 1.2;  // cells so near to each other are of one thing
 constexpr double kLeastSpeed_mps = 1;
 
-enum Mark : std::uint8_t { kHasGround = 1, kIsLethal = 2 };
-
 }  // namespace
 
 Movers::Movers(int n_xy) : flags_(static_cast<std::size_t>(n_xy) * static_cast<std::size_t>(n_xy)) {
-  for (Past& past : pasts_) past.marks.resize(flags_.size());
+  for (Past& past : pasts_) past.is_open.resize(flags_.size());
   movers_.reserve(kMost);
 }
 
@@ -33,9 +31,7 @@ void Movers::remember(const MapView& map) {
   now.cells = map.cells();
   for (int i = 0; i < now.cells.count(); ++i) {
     const bool ground = map.visibility[i] >= kLeast && map.height[i] == map.height[i];
-    const bool lethal = (map.flags[i] & kLethal) != 0;
-    now.marks[static_cast<std::size_t>(i)] =
-        static_cast<std::uint8_t>((ground ? kHasGround : 0) | (lethal ? kIsLethal : 0));
+    now.is_open[static_cast<std::size_t>(i)] = ground && (map.flags[i] & kNotOpen) == 0 ? 1 : 0;
   }
 }
 
@@ -47,13 +43,13 @@ const Movers::Past* Movers::past(std::int64_t stamp_ns) const {
   return nullptr;
 }
 
-bool Movers::was_free(const Past& past, const Eigen::Vector2d& place_m) {
+bool Movers::was_open(const Past& past, const Eigen::Vector2d& place_m) {
   const int cell = past.cells.index_of(place_m.x(), place_m.y());
-  if (cell < 0 || (past.marks[static_cast<std::size_t>(cell)] & kHasGround) == 0) return false;
+  if (cell < 0) return false;
   const int n = past.cells.n, reach = static_cast<int>(std::lround(kBeside_m / past.cells.cell_m));
   for (int y = std::max(0, cell / n - reach); y <= std::min(n - 1, cell / n + reach); ++y)
     for (int x = std::max(0, cell % n - reach); x <= std::min(n - 1, cell % n + reach); ++x)
-      if ((past.marks[static_cast<std::size_t>(y * n + x)] & kIsLethal) != 0) return false;
+      if (past.is_open[static_cast<std::size_t>(y * n + x)] == 0) return false;
   return true;
 }
 
@@ -68,7 +64,7 @@ void Movers::observe(const MapView& map, const Pose2& vehicle, double speed_mps)
     near.for_each([&](int cell) {
       if ((map.flags[cell] & kHard) == 0) return;
       const Eigen::Vector2d place_m = cells.center_of(cell);
-      if (!was_free(*before, place_m)) return;
+      if (!was_open(*before, place_m)) return;
       const double away_m = (place_m - vehicle.place()).norm();
       const double until_s = away_m / std::max(kLeastSpeed_mps, speed_mps);
       add(place_m, std::clamp(kWalks_mps * until_s, kLeast_m, speed_mps > 0 ? kMost_m : kLeast_m),

@@ -10,9 +10,10 @@
 
 namespace gvom::planner {
 
-/// Something hard now where `kBefore_ns` ago known ground was, and nothing lethal within a column of 0.4 m:
-/// it has come there. Noise of the odometry moves edges by less. The room that it can reach until the vehicle
-/// is there is closed (HARD), so the vehicle goes behind, slows down or waits.
+/// Something hard now where `kBefore_ns` ago known ground was with nothing on it, for 0.4 m around: it has
+/// come there. Noise of the odometry moves edges by less, and what stands had a shadow behind it before it
+/// was seen to be hard. The room that it can reach until the vehicle is there is closed (HARD), so the
+/// vehicle goes behind, slows down or waits.
 class Movers {
  public:
   static constexpr std::int64_t kBefore_ns = 600'000'000;
@@ -35,7 +36,7 @@ class Movers {
   struct Past {
     std::int64_t stamp_ns = 0;
     Cells cells;
-    std::vector<std::uint8_t> marks;  // of `Mark`
+    std::vector<std::uint8_t> is_open;  // 1: known ground with nothing on it
   };
   struct Mover {
     Eigen::Vector2d middle_m;
@@ -46,7 +47,7 @@ class Movers {
 
   void remember(const MapView& map);
   [[nodiscard]] const Past* past(std::int64_t stamp_ns) const;
-  static bool was_free(const Past& past, const Eigen::Vector2d& place_m);
+  static bool was_open(const Past& past, const Eigen::Vector2d& place_m);
   void add(const Eigen::Vector2d& place_m, double radius_m, std::int64_t stamp_ns);
 
   std::array<Past, kPasts> pasts_;

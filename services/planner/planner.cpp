@@ -142,7 +142,9 @@ void Planner::Impl::drive(const MapView& map, const Senses& senses) {
   plan_.path = optimiser_.optimise(costs_, at.pose, at.curvature_per_m, at.speed_mps, guide_);
   const Trajectory* best = fan_.choose(fan_input(at));
   if (best != nullptr) drive_on(*best, at, senses);
-  if (best == nullptr || !best->leads_on) return stand_without_trajectory(senses);
+  const bool leads_on = best != nullptr && best->leads_on;
+  if (!leads_on && !movers_.empty()) return brake_for_movers(map, at);
+  if (!leads_on) return stand_without_trajectory(senses);
   retreat_.clear();
 }
 
