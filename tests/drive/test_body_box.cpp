@@ -62,7 +62,7 @@ TEST_CASE("the box meets what points within it find, and nothing else") {
   sim::Random random(11);
   const driving::VehicleModel model = small_vehicle();
   int met = 0, missed = 0;
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < 150; ++i) {
     Pose pose;
     pose.translation_m = {random.between(-1, 1), random.between(-1, 1), 0.25};
     pose.rotation = Eigen::AngleAxisd(random.between(-3, 3), Eigen::Vector3d::UnitZ()) *

@@ -48,9 +48,9 @@ double straight_m(const CourseWorld& course) {
 
 }  // namespace
 
-TEST_CASE("campaign worlds 1 to 20 have a start to stand at, and most a way that is not the straight one") {
+TEST_CASE("campaign worlds 1 to 10 have a start to stand at, and most a way that is not the straight one") {
   int ways = 0, straight = 0;
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     INFO("seed " << seed);
     const Known known(make_campaign_world(seed, kShort_m));
     const TruthPlanner planner(known.truth, {});
@@ -60,8 +60,8 @@ TEST_CASE("campaign worlds 1 to 20 have a start to stand at, and most a way that
     ways += planner.plan(known.course.start.place(), known.course.waypoints_m) ? 1 : 0;
     straight += is_free_straight_on(planner, known.course) ? 1 : 0;
   }
-  CHECK(ways >= 18);
-  CHECK(straight <= 4);
+  CHECK(ways >= 9);
+  CHECK(straight <= 2);
 }
 
 TEST_CASE("a campaign's waypoints are 50 to 80 m apart, its start looks at the first") {
