@@ -103,7 +103,7 @@ TEST_CASE("Rings of ground count as seen together where the gap between is short
   }
   for (int x = 10; x <= 13; ++x) {
     CHECK(costmap.known()[map.at(x, 20)] == 0);
-    CHECK(cost_at(costmap, x, 20) == 7);
+    CHECK(cost_at(costmap, x, 20) == 1.5);
   }
 }
 
