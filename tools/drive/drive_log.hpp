@@ -1,6 +1,7 @@
 // What happened on a drive.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -33,6 +34,11 @@ struct DriveLog {
   int bushes_driven_through = 0;
   int grass_driven_through = 0;
 
+  void add(const DriveStep& step) {
+    nearest_m = std::min(nearest_m, step.nearest_m);
+    nearest_sum_m += step.nearest_m;
+    steps.push_back(step);
+  }
   [[nodiscard]] double seconds() const { return steps.empty() ? 0.0 : steps.back().time_s; }
   [[nodiscard]] double mean_nearest_m() const {
     return steps.empty() ? 0.0 : nearest_sum_m / static_cast<double>(steps.size());

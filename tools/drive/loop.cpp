@@ -9,25 +9,9 @@
 namespace gvom::driving {
 namespace {
 
-constexpr std::int64_t kTurn_ns = 100'000'000;
 constexpr std::int64_t kStep_ns = 10'000'000;
-constexpr std::int64_t kOutOfStep_ns = 37'100'000;  // between the lidars' turns
 constexpr int kStepsPerTurn = 10;
 constexpr int kStepsBefore = 15;  // of odometry before the start: sweeps begin up to a turn earlier
-constexpr int kSensor_hz = 10;
-
-/// A sweep ends with the loop's turn, or the lidar's own part of a turn before. Number 0
-/// turns with the loop.
-std::vector<sim::LidarModel> make_lidars(const Rig& rig, std::uint64_t seed) {
-  std::vector<sim::LidarModel> lidars;
-  for (const LidarGeometry& geometry : rig.mapping.lidars) {
-    const int number = static_cast<int>(lidars.size());
-    const sim::LidarPlace place{"lidar", number, 0, sim::kStartNs - number * kOutOfStep_ns % kTurn_ns,
-                                geometry.T_base_sensor};
-    lidars.push_back(make_lidar(rig.sensor, place, kSensor_hz, seed));
-  }
-  return lidars;
-}
 
 /// The lidar whose sweep ends first is the first.
 std::vector<std::size_t> order_of(const std::vector<sim::LidarModel>& lidars) {
@@ -118,11 +102,9 @@ void Loop::write_step(const Decision& decision, double layers_age_s) {
   DriveStep step{vehicle_.time_s(),     vehicle_.T_odom_base(), state.place,  state.speed_mps,
                  state.curvature_per_m, decision.command,       layers_age_s, 0};
   step.nearest_m = obstacles_.nearest_m(vehicle_.model().limits, state.place, step.time_s);
-  log_.nearest_m = std::min(log_.nearest_m, step.nearest_m);
-  log_.nearest_sum_m += step.nearest_m;
+  log_.add(step);
   log_.bushes_driven_through = watch_.bushes_driven_through();
   log_.grass_driven_through = watch_.grass_driven_through();
-  log_.steps.push_back(step);
 }
 
 tl::expected<DriveLog, std::string> drive(Loop& loop, const Driver& driver, double seconds) {

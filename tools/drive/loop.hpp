@@ -12,21 +12,13 @@
 
 #include "core/odometry_buffer.hpp"
 #include "tools/drive/drive_log.hpp"
+#include "tools/drive/rig.hpp"
 #include "tools/drive/true_obstacles.hpp"
 #include "tools/mapping/pipeline.hpp"
 #include "tools/sim/odometry_errors.hpp"
 #include "tools/sim/sweep_simulator.hpp"
 
 namespace gvom::driving {
-
-inline constexpr double kTurn_s = 0.1;  ///< Of an OS1 at 10 Hz: a step of the loop.
-
-/// A vehicle with its lidars and what maps them.
-struct Rig {
-  VehicleModel model;
-  mapping::Vehicle mapping;
-  sim::Sensor sensor = sim::Sensor::os1_64;  ///< Of all lidars: an OS1.
-};
 
 struct LoopOptions {
   std::uint64_t seed = 1;

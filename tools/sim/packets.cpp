@@ -78,21 +78,28 @@ std::size_t record_bytes(const LidarModel& lidar) {
   return kPcapOverhead + payload_bytes(lidar);
 }
 
+std::int64_t end_of_packet_ns(const LidarModel& lidar, int sweep, int packet) {
+  return lidar.stamp_ns(sweep, (packet + 1) * columns_per_packet(lidar) - 1);
+}
+
+void write_packet(const SweepSimulator& simulator, int sweep, int packet, std::uint8_t* record) {
+  const LidarModel& lidar = simulator.lidar();
+  const int first = packet * columns_per_packet(lidar);
+  const std::vector<Pixel> pixels = measure_packet(simulator, sweep, first);
+  const PacketStamp stamp{sweep * packets_of_sweep(lidar) + packet,
+                          end_of_packet_ns(lidar, sweep, packet) + kSendDelay};
+  std::memset(record, 0, record_bytes(lidar));
+  std::uint8_t* payload = begin_record(record, lidar, stamp, payload_bytes(lidar));
+  if (lidar.sensor == Sensor::vlp_16)
+    write_puck(lidar, sweep, first, pixels.data(), payload);
+  else
+    write_ouster(lidar, sweep, first, pixels.data(), payload);
+}
+
 void write_sweep(const SweepSimulator& simulator, int sweep, std::uint8_t* records) {
   const LidarModel& lidar = simulator.lidar();
-  const int columns = columns_per_packet(lidar);
-  std::memset(records, 0, packets_of_sweep(lidar) * record_bytes(lidar));
-  for (int packet = 0; packet < packets_of_sweep(lidar); ++packet, records += record_bytes(lidar)) {
-    const int first = packet * columns;
-    const std::vector<Pixel> pixels = measure_packet(simulator, sweep, first);
-    const PacketStamp stamp{sweep * packets_of_sweep(lidar) + packet,
-                            lidar.stamp_ns(sweep, first + columns - 1) + kSendDelay};
-    std::uint8_t* payload = begin_record(records, lidar, stamp, payload_bytes(lidar));
-    if (lidar.sensor == Sensor::vlp_16)
-      write_puck(lidar, sweep, first, pixels.data(), payload);
-    else
-      write_ouster(lidar, sweep, first, pixels.data(), payload);
-  }
+  for (int packet = 0; packet < packets_of_sweep(lidar); ++packet, records += record_bytes(lidar))
+    write_packet(simulator, sweep, packet, records);
 }
 
 }  // namespace gvom::sim

@@ -18,6 +18,12 @@ inline int packets_of_sweep(const LidarModel& lidar) {
   return lidar.columns / columns_per_packet(lidar);
 }
 
+/// One packet of a sweep, counted from 0, as a pcap record of `record_bytes()` bytes; its payload begins
+/// after `kPcapOverhead` of them.
+void write_packet(const SweepSimulator& simulator, int sweep, int packet, std::uint8_t* record);
+/// The stamp of a packet's last column.
+std::int64_t end_of_packet_ns(const LidarModel& lidar, int sweep, int packet);
+
 /// The pcap records of one sweep, `packets_of_sweep() * record_bytes()` bytes.
 void write_sweep(const SweepSimulator& simulator, int sweep, std::uint8_t* records);
 

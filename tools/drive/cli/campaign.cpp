@@ -18,11 +18,6 @@ bool read_seed(std::string_view text, std::uint64_t& seed) {
   return result.ec == std::errc{} && result.ptr == text.data() + text.size();
 }
 
-tl::expected<CourseWorld, std::string> world_of(const CampaignOptions& options, std::uint64_t seed) {
-  if (!options.course.empty()) return make_test_world(options.course);
-  return make_campaign_world(seed, options.length_m);
-}
-
 double quantile(std::vector<double> values, double share) {
   if (values.empty()) return NAN;
   const auto place = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1) + 0.5);
@@ -71,6 +66,19 @@ bool read_seeds(const std::string& seeds, CampaignOptions& options) {
          (read_seed(all.substr(dots + 2), options.last_seed) && options.last_seed >= options.first_seed);
 }
 
+tl::expected<CourseWorld, std::string> world_of(const CampaignOptions& options, std::uint64_t seed) {
+  if (!options.course.empty()) return make_test_world(options.course);
+  return make_campaign_world(seed, options.length_m);
+}
+
+SessionOptions session_options(const CampaignOptions& options, std::uint64_t seed) {
+  SessionOptions session;
+  session.sensor = options.sensor;
+  session.odometry_noise = {options.noise[0], options.noise[1]};
+  session.seed = seed;
+  return session;
+}
+
 std::string line_of(const Row& row) {
   const SessionResult& result = row.result;
   const DriveLog& log = result.log;
@@ -115,12 +123,8 @@ tl::expected<std::vector<Row>, std::string> run_campaign(const services::Vehicle
     auto& row = rows[static_cast<std::size_t>(i)];
     const auto world = world_of(options, seed);
     if (!world) return static_cast<void>(row = tl::unexpected(world.error()));
-    SessionOptions session;
-    session.sensor = options.sensor;
-    session.odometry_noise = {options.noise[0], options.noise[1]};
-    session.seed = seed;
     DriveFile file(options.folder, world->name, seed);
-    auto result = run_session(*world, config, session, file.onlooker());
+    auto result = run_session(*world, config, session_options(options, seed), file.onlooker());
     if (!result) return static_cast<void>(row = tl::unexpected(result.error()));
     row = Row{world->name, seed, std::move(*result)};
     const std::lock_guard lock(mutex);

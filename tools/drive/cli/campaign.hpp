@@ -26,6 +26,11 @@ struct CampaignOptions {
 /// "7" or "1..200".
 bool read_seeds(const std::string& text, CampaignOptions& options);
 
+/// The world of a course, or the random one of a seed. The error names the courses.
+tl::expected<CourseWorld, std::string> world_of(const CampaignOptions& options, std::uint64_t seed);
+
+SessionOptions session_options(const CampaignOptions& options, std::uint64_t seed);
+
 struct Row {
   std::string world;
   std::uint64_t seed;

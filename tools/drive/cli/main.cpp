@@ -1,4 +1,6 @@
 // gvom-drive: the reference planner drives a simulated vehicle, in lock-step.
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -6,7 +8,10 @@
 
 #include "services/common/config_file.hpp"
 #include "services/common/exit_code.hpp"
+#include "services/common/log.hpp"
 #include "tools/drive/cli/campaign.hpp"
+#include "tools/drive/cli/log_file.hpp"
+#include "tools/drive/live/run_live.hpp"
 
 namespace {
 
@@ -18,15 +23,36 @@ int fail(ExitCode code, const std::string& message) {
   return to_int(code);
 }
 
+/// The first seed's world through the processes on the bus. 0: the vehicle arrived.
+int drive_live(const services::VehicleConfig& config, const driving::CampaignOptions& options,
+               services::Lifecycle& lifecycle) {
+  const std::uint64_t seed = options.first_seed;
+  const auto world = driving::world_of(options, seed);
+  if (!world) return fail(ExitCode::usage, world.error());
+  services::init_logging("gvom-drive");
+  driving::DriveFile file(options.folder, world->name, seed);
+  auto result = driving::run_live(*world, config, driving::session_options(options, seed), options.folder,
+                                  lifecycle, file.onlooker());
+  if (!result) return to_int(result.error());
+  const bool arrived = result->session.outcome == driving::Outcome::arrived;
+  const driving::Row row{world->name, seed, std::move(result->session)};
+  std::printf("%s\n%s%s\n", driving::line_of(row).c_str(), driving::table_of({row}).c_str(),
+              result->figures.c_str());
+  std::fflush(stdout);
+  ::_exit(arrived ? 0 : 1);  // destructors of ports without a broker can hang
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  services::Lifecycle lifecycle;
   CLI::App app{
       "Drives a simulated vehicle by the reference planner, in lock-step: simulated sweeps are mapped "
       "and fused, the planner plans, the vehicle moves."};
   driving::CampaignOptions options;
   std::string vehicle, seeds = "1", sensor = "os1-64";
   std::vector<std::string> sets;
+  bool live = false;
   app.add_option("--config", vehicle, "the vehicle's file")->required();
   app.add_option("--set", sets, "overrides a key of it: KEY=VALUE");
   app.add_option("--seeds", seeds, "of random worlds: N, or FIRST..LAST")->capture_default_str();
@@ -39,7 +65,12 @@ int main(int argc, char** argv) {
   app.add_option("--threads", options.threads, "worlds at a time; they change no byte")
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
-  app.add_option("--out", options.folder, "logs and pictures go there");
+  auto* out = app.add_option("--out", options.folder, "logs and pictures go there");
+  app.add_flag(
+         "--real-time", live,
+         "one world, through the real processes: sends packets to the lidars' ports, odometry and a course "
+         "over the bus, drives as gvom-planner commands; lidars' metadata are in OUT/NAME.json")
+      ->needs(out);
   CLI11_PARSE(app, argc, argv);
 
   auto config = services::load_vehicle_config(vehicle, sets);
@@ -49,6 +80,7 @@ int main(int argc, char** argv) {
   options.sensor = *found;
   if (!driving::read_seeds(seeds, options))
     return fail(ExitCode::usage, "--seeds: expected N or FIRST..LAST");
+  if (live) return drive_live(*config, options, lifecycle);
   const auto rows = driving::run_campaign(*config, options, [](const driving::Row& row) {
     std::fprintf(stderr, "%s\n", driving::line_of(row).c_str());
   });

@@ -13,16 +13,6 @@ constexpr double kMinute_s = 60;
 constexpr double kStands_mps = 0.05;
 constexpr double kLongStop_s = 1.0;
 
-Rig rig_of(const services::VehicleConfig& config, sim::Sensor sensor) {
-  Rig rig;
-  rig.model.limits = config.planner.vehicle;
-  rig.model.base_height_m = config.mapper.vehicle.base_height_m;
-  rig.mapping.mapper = config.mapper;
-  for (const services::LidarConfig& lidar : config.lidars) rig.mapping.lidars.push_back(lidar.geometry);
-  rig.sensor = sensor;
-  return rig;
-}
-
 /// The planner as a driver.
 class Chauffeur {
  public:
@@ -73,22 +63,17 @@ int count_stops(const DriveLog& log) {
   return stops;
 }
 
-void judge(const Chauffeur& driver, SessionResult& result) {
-  const DriveLog& log = result.log;
-  if (log.mishap)
-    result.outcome = Outcome::mishap;
-  else if (driver.mode() == planner::Mode::arrived)
-    result.outcome = Outcome::arrived;
-  else if (driver.mode() == planner::Mode::gave_up)
-    result.outcome = Outcome::gave_up;
-  result.end = log.mishap ? describe(*log.mishap) : driver.why();
-  result.false_stops = count_stops(log);
-  for (const DriveStep& step : log.steps)
-    result.top_speed_mps = std::max(result.top_speed_mps, step.speed_mps);
-  result.cycle_ms = driver.cycle_ms();
-}
-
 }  // namespace
+
+Rig rig_of(const services::VehicleConfig& config, sim::Sensor sensor) {
+  Rig rig;
+  rig.model.limits = config.planner.vehicle;
+  rig.model.base_height_m = config.mapper.vehicle.base_height_m;
+  rig.mapping.mapper = config.mapper;
+  for (const services::LidarConfig& lidar : config.lidars) rig.mapping.lidars.push_back(lidar.geometry);
+  rig.sensor = sensor;
+  return rig;
+}
 
 const char* words_of(Outcome outcome) {
   switch (outcome) {
@@ -104,6 +89,30 @@ const char* words_of(Outcome outcome) {
   return "too slow";
 }
 
+void judge(planner::Mode mode, const std::string& why, SessionResult& result) {
+  const DriveLog& log = result.log;
+  if (log.mishap)
+    result.outcome = Outcome::mishap;
+  else if (mode == planner::Mode::arrived)
+    result.outcome = Outcome::arrived;
+  else if (mode == planner::Mode::gave_up)
+    result.outcome = Outcome::gave_up;
+  result.end = log.mishap ? describe(*log.mishap) : why;
+  result.false_stops = count_stops(log);
+  for (const DriveStep& step : log.steps)
+    result.top_speed_mps = std::max(result.top_speed_mps, step.speed_mps);
+}
+
+double most_seconds(const SessionOptions& options, const std::optional<TrueWay>& way) {
+  return kMinute_s + options.patience * (way ? way->seconds : kMinute_s);
+}
+
+std::optional<TrueWay> true_way(const sim::GroundTruth& truth, const CourseWorld& course,
+                                const planner::PlannerConfig& planning) {
+  return TruthPlanner(truth, {planning.vehicle.width_m, planning.speed_mps, planning.goal_tolerance_m})
+      .plan(course.start.place(), course.waypoints_m);
+}
+
 tl::expected<SessionResult, std::string> run_session(const CourseWorld& course,
                                                      const services::VehicleConfig& config,
                                                      const SessionOptions& options,
@@ -112,22 +121,20 @@ tl::expected<SessionResult, std::string> run_session(const CourseWorld& course,
   const sim::GroundTruth truth =
       sim::sample_truth(world, {config.mapper.map.resolution_xy_m, 0.0, options.threads});
   const TrueObstacles obstacles(world, truth);
-  const planner::PlannerConfig& planning = config.planner;
   SessionResult result;
-  result.way = TruthPlanner(truth, {planning.vehicle.width_m, planning.speed_mps, planning.goal_tolerance_m})
-                   .plan(course.start.place(), course.waypoints_m);
+  result.way = true_way(truth, course, config.planner);
   LoopOptions loop_options;
   loop_options.seed = options.seed;
   loop_options.odometry_noise = options.odometry_noise;
   loop_options.threads = options.threads;
   Loop loop(world, obstacles, rig_of(config, options.sensor), course.start, loop_options);
   Chauffeur chauffeur(config, course.waypoints_m, onlooker);
-  const double most_s = kMinute_s + options.patience * (result.way ? result.way->seconds : kMinute_s);
   auto log = drive(
-      loop, [&chauffeur](const Seen& seen) { return chauffeur(seen); }, most_s);
+      loop, [&chauffeur](const Seen& seen) { return chauffeur(seen); }, most_seconds(options, result.way));
   if (!log) return tl::unexpected(log.error());
   result.log = std::move(*log);
-  judge(chauffeur, result);
+  judge(chauffeur.mode(), chauffeur.why(), result);
+  result.cycle_ms = chauffeur.cycle_ms();
   return result;
 }
 

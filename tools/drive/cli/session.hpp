@@ -39,6 +39,15 @@ struct SessionResult {
   std::vector<double> cycle_ms;  ///< Of the planner, each.
 };
 
+// What sessions in lock-step and in real time have in common.
+Rig rig_of(const services::VehicleConfig& config, sim::Sensor sensor);
+std::optional<TrueWay> true_way(const sim::GroundTruth& truth, const CourseWorld& course,
+                                const planner::PlannerConfig& planning);
+/// How long a drive may take, seconds.
+double most_seconds(const SessionOptions& options, const std::optional<TrueWay>& way);
+/// Fills in the result by its log and what the planner said last.
+void judge(planner::Mode mode, const std::string& why, SessionResult& result);
+
 /// Is shown each turn's plan with what it was made of.
 using Onlooker = std::function<void(const Seen&, const planner::Plan&)>;
 
