@@ -7,6 +7,7 @@
 
 #include "services/common/config_file.hpp"
 #include "tests/processes/flat_world.hpp"
+#include "tests/processes/observer.hpp"
 #include "tests/processes/recordings.hpp"
 #include "tests/tools/temporary_folder.hpp"
 
@@ -21,6 +22,7 @@ namespace {
 struct Rig {
   TemporaryFolder folder;
   Graph graph{front_only(folder.path())};
+  Observer observer{folder.path()};
   FlatWorld world{services::load_vehicle_config(graph.vehicle().file, graph.vehicle().sets).value()};
   std::unique_ptr<Program> planner = start();
 
@@ -40,6 +42,13 @@ struct Rig {
   [[nodiscard]] bool says(const std::string& words) const {
     return eventually([&] { return world.why().find(words) != std::string::npos; });
   }
+  [[nodiscard]] bool is(ipc::HealthState state, const std::string& words = "") const {
+    return eventually([&] {
+      const auto health = observer.health("gvom-planner");
+      return health && health->state == static_cast<std::uint32_t>(state) &&
+             std::string(health->reason).find(words) != std::string::npos;
+    });
+  }
 };
 
 }  // namespace
@@ -48,6 +57,7 @@ TEST_CASE("the planner drives to a goal that the bus gives it, and stops there")
   Rig rig;
   REQUIRE(rig.world.is_up());
   CHECK(rig.says("course"));
+  CHECK(rig.is(ipc::HealthState::ok));
   CHECK(rig.world.speed_mps() == 0);
   rig.world.send_course(12, 0);
   CHECK(rig.drives());
@@ -67,8 +77,10 @@ TEST_CASE("it stops, says why, and goes on: without layers, without odometry, wi
   rig.world.let_layers(false);
   CHECK(rig.stands());
   CHECK(rig.says("layers"));
+  CHECK(rig.is(ipc::HealthState::degraded, "layers"));
   rig.world.let_layers(true);
   CHECK(rig.drives());
+  CHECK(rig.is(ipc::HealthState::ok));
 
   rig.world.let_odometry(false);
   CHECK(rig.stands());
