@@ -70,6 +70,7 @@ class Planner::Impl {
   std::int64_t stamp_ns_ = 0;           ///< Of that.
   double room_now_m_ = 0;
   std::optional<std::int64_t> jump_ns_;          ///< Only a map from after it may be driven by.
+  int must_stand_ = 0;                           ///< Cycles that it has to stand yet, after a jump.
   std::optional<std::int64_t> unseen_since_ns_;  ///< It stands before ground that does not show.
   std::vector<TrajectoryPoint> driven_;          ///< The last trajectory that was driven.
   bool arrived_ = false;

@@ -10,6 +10,7 @@ namespace gvom::planner {
 namespace {
 
 constexpr double kStands_mps = 0.1;
+constexpr int kStandCycles = 3;  // what a jump of the odometry says of the speed is nothing at first
 
 Pose2 flat(const Pose& pose) {
   const Eigen::Vector3d forward = pose.rotation * Eigen::Vector3d::UnitX();
@@ -82,6 +83,7 @@ void Planner::Impl::observe(const State& state, const Senses& senses) {
   now_ = {flat(state.T_odom_base), state.speed_mps, state.curvature_per_m};
   if (senses.odometry_jumped) {
     jump_ns_ = stamp_ns_;
+    must_stand_ = kStandCycles;
     retreat_.forget();
     closed_.clear();
     movers_.clear();
@@ -115,6 +117,10 @@ bool Planner::Impl::may_plan(const MapView* map, const Senses& senses) {
     stop(Reason::stale_layers);
     say(plan_.why, "stops: the layers are %.2f s old, more than %.2f s", senses.layers_age_s,
         config_.max_age_s);
+  } else if (must_stand_ > 0) {
+    must_stand_ = stands() ? must_stand_ - 1 : kStandCycles;
+    stop(Reason::odometry_jump);
+    say(plan_.why, "stops: odometry jumped; it goes on from a stand");
   } else {
     jump_ns_.reset();
     return true;

@@ -53,7 +53,7 @@ TEST_CASE("It does not drive where no lidar looks") {
   CHECK(flat.loop.step().mode == Mode::drive);
 }
 
-TEST_CASE("After a jump of odometry only a map from after it is driven by") {
+TEST_CASE("After a jump of odometry only a map from after it is driven by, and from a stand") {
   Flat flat;
   flat.loop.planner.set_course({{40, 25}});
   for (int i = 0; i < 10; ++i) flat.loop.step();
@@ -64,7 +64,10 @@ TEST_CASE("After a jump of odometry only a map from after it is driven by") {
   check_stop(flat.loop.planner.cycle(&before, state, jumped), Reason::odometry_jump, "0.20 s older");
   check_stop(flat.loop.planner.cycle(&before, state, {}), Reason::odometry_jump, "odometry jumped");
   const planner::MapView after = flat.map.view(state.stamp_ns + 1);
-  CHECK(flat.loop.planner.cycle(&after, state, {}).mode == Mode::drive);
+  check_stop(flat.loop.planner.cycle(&after, state, {}), Reason::odometry_jump, "goes on from a stand");
+  REQUIRE(flat.loop.vehicle.speed_mps() > 0.5);
+  REQUIRE(flat.loop.until(Mode::drive, 5));
+  CHECK(flat.loop.vehicle.speed_mps() < 0.1);
 }
 
 TEST_CASE("A wall across the map leaves no way, and after a while it gives up") {
