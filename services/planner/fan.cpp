@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kPerSecond = 1;        // of driving, in metres of good ground
+constexpr double kPerSecond = 3;        // of driving, in metres of good ground
 constexpr double kPerMissingMetre = 4;  // of the reach, where it ends early
 constexpr double kCannotStop = 1000;    // where it ends at once, less the more of the way to stop there is
 constexpr double kLeadsNowhere = 500;
