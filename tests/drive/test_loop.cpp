@@ -161,6 +161,35 @@ TEST_CASE("odometry is off by its noise, the vehicle is not") {
   for (const DriveStep& step : log.steps) CHECK(step.place.y_m == 0);
 }
 
+TEST_CASE("speed and curvature are the odometry's, with its noise") {
+  double largest_mps = 0, last_mps = 0, last_per_m = 0;
+  const auto stand = [&](const Seen& seen) {
+    largest_mps = std::max(largest_mps, std::abs(seen.state.speed_mps));
+    return Decision{planner::Command{0, 0}, false};
+  };
+  LoopOptions options;
+  drive_through(1, options, stand, 1);
+  CHECK(largest_mps == 0);
+  // Errors of 5 cm with a memory of 1 s differ by 5 cm sqrt(2 (1 - exp(-0.15))) = 2.6 cm in 0.15 s: 0.18 m/s.
+  options.odometry_noise = {0.05, 0};
+  const DriveLog stood = drive_through(1, options, stand, 2);
+  CHECK(largest_mps > 0.1);
+  CHECK(largest_mps < 0.8);
+  for (const DriveStep& step : stood.steps) CHECK(step.speed_mps == 0);
+
+  const DriveLog turned = drive_through(
+      1, {},
+      [&](const Seen& seen) {
+        last_mps = seen.state.speed_mps;
+        last_per_m = seen.state.curvature_per_m;
+        return Decision{planner::Command{1, 0.3}, false};
+      },
+      2.5);
+  CHECK(last_mps == Approx(turned.steps.back().speed_mps).margin(0.02));
+  // A skid-steer vehicle loses 10 % of its yaw rate.
+  CHECK(last_per_m == Approx(0.9 * 0.3).margin(0.01));
+}
+
 TEST_CASE("a drive ends with a mishap, and by the driver") {
   const DriveLog hit = drive_through(1, {}, Pursuit({{0, 0}, {12, 2}, {20, 2}}, 4), 10);
   REQUIRE(hit.mishap);

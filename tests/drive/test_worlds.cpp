@@ -5,8 +5,10 @@
 #include <catch2/catch.hpp>
 
 #include "tests/drive/driven.hpp"
+#include "tests/tools/temporary_folder.hpp"
 #include "tools/drive/truth_planner.hpp"
 #include "tools/drive/worlds.hpp"
+#include "tools/sim/world_files.hpp"
 
 using namespace gvom;
 using namespace gvom::driving;
@@ -119,4 +121,18 @@ TEST_CASE("test-1 and test-2 are long courses with a way that is longer than the
   }
   CHECK(make_test_world("test-5").error() ==
         "test-5: no such test; there are test-1, test-2, test-3 and test-4");
+}
+
+TEST_CASE("a world from files is driven along its path") {
+  const TemporaryFolder folder;
+  sim::WorldData data = level_world();
+  data.path_m = {{1, 2}, {4, 6}, {20, 6}};
+  REQUIRE(sim::save_world(data, folder.path() + "/meadow"));
+  const auto course = read_course_world(folder.path() + "/meadow/");
+  REQUIRE(course);
+  CHECK(course->name == "meadow");
+  CHECK(course->start.place() == Eigen::Vector2d(1, 2));
+  CHECK(course->start.yaw_rad == Approx(std::atan2(4, 3)));
+  CHECK(course->waypoints_m == std::vector<Eigen::Vector2d>{{4, 6}, {20, 6}});
+  CHECK_FALSE(read_course_world(folder.path()));
 }

@@ -11,7 +11,8 @@ namespace {
 
 constexpr std::int64_t kStep_ns = 10'000'000;
 constexpr int kStepsPerTurn = 10;
-constexpr int kStepsBefore = 15;  // of odometry before the start: sweeps begin up to a turn earlier
+constexpr double kFastest_mps = 40;  // no vehicle is; odometry that jumps is not simulated
+constexpr int kStepsBefore = 15;     // of odometry before the start: sweeps begin up to a turn earlier
 
 /// The lidar whose sweep ends first is the first.
 std::vector<std::size_t> order_of(const std::vector<sim::LidarModel>& lidars) {
@@ -39,10 +40,11 @@ Loop::Loop(const sim::World& world, const TrueObstacles& obstacles, const Rig& r
       vehicle_(world.terrain(), rig.model, start),
       watch_(world, rig.model),
       errors_(options.odometry_noise, kSteps_hz, options.seed),
+      motion_(kFastest_mps),
       lidars_(make_lidars(rig, options.seed)),
       order_(order_of(lidars_)),
       sweeps_(lidars_.size()),
-      pipeline_(rig.mapping, most_returns(lidars_)) {
+      pipeline_(rig.mapping, most_returns(lidars_), make_fusion(rig.mapping.mapper, options.ablation)) {
   sim::SweepOptions measured;
   measured.seed = options.seed;
   for (const sim::LidarModel& lidar : lidars_) simulators_.emplace_back(world, vehicle_, lidar, measured);
@@ -50,8 +52,9 @@ Loop::Loop(const sim::World& world, const TrueObstacles& obstacles, const Rig& r
 }
 
 void Loop::add_odometry(int step) {
-  last_odometry_ = {stamp_of(step), errors_.disturb(vehicle_.T_odom_base())};
-  odometry_.add(last_odometry_);
+  const StampedPose pose{stamp_of(step), errors_.disturb(vehicle_.T_odom_base())};
+  odometry_.add(pose);
+  motion_.take(pose, 0);
 }
 
 /// For the length of a turn, unless something happens.
@@ -68,6 +71,8 @@ void Loop::move() {
 tl::expected<std::int64_t, std::string> Loop::map_turn() {
   sim::parallel_for(static_cast<int>(lidars_.size()), options_.threads,
                     [&](int i) { simulators_[i].measure(turns_, sweeps_[i]); });
+  if (options_.ablation == Ablation::deskew_off)
+    for (Sweep& sweep : sweeps_) forget_times(sweep);
   for (const std::size_t lidar : order_)
     if (const auto mapped = pipeline_.add(lidar, sweeps_[lidar], odometry_); !mapped)
       return tl::unexpected(mapped.error());
@@ -82,19 +87,15 @@ tl::expected<bool, std::string> Loop::turn(const Driver& driver) {
   if (!log_.mishap) {
     const auto stamp_ns = map_turn();
     if (!stamp_ns) return tl::unexpected(stamp_ns.error());
-    age_s = 1e-9 * static_cast<double>(last_odometry_.stamp_ns - *stamp_ns) + options_.mapping_s;
-    decision = driver({pipeline_.make_layers(), pipeline_.grid(), *stamp_ns, age_s, odometry_state()});
+    const planner::State state = motion_.state().value_or(planner::State{});  // it has poses since the start
+    age_s = 1e-9 * static_cast<double>(state.stamp_ns - *stamp_ns) + options_.mapping_s;
+    decision = driver({pipeline_.make_layers(), pipeline_.grid(), *stamp_ns, age_s, state});
     if (decision.command) vehicle_.command(vehicle_.time_s() + options_.mapping_s, *decision.command);
   }
   log_.is_done = decision.is_done;
   write_step(decision, age_s);
   ++turns_;
   return !has_ended();
-}
-
-planner::State Loop::odometry_state() const {
-  const VehicleState& state = vehicle_.state();
-  return {last_odometry_.stamp_ns, last_odometry_.T_odom_base, state.speed_mps, state.curvature_per_m};
 }
 
 void Loop::write_step(const Decision& decision, double layers_age_s) {

@@ -11,6 +11,8 @@
 #include <tl/expected.hpp>
 
 #include "core/odometry_buffer.hpp"
+#include "services/planner/process/motion.hpp"
+#include "tools/drive/ablation.hpp"
 #include "tools/drive/drive_log.hpp"
 #include "tools/drive/rig.hpp"
 #include "tools/drive/true_obstacles.hpp"
@@ -24,7 +26,8 @@ struct LoopOptions {
   std::uint64_t seed = 1;
   double mapping_s = 0.1;  ///< From the end of a turn until the command by its layers is given.
   sim::OdometryNoise odometry_noise;
-  int threads = 1;  ///< Lidars that are measured at a time; they do not change a byte.
+  Ablation ablation = Ablation::none;  ///< Of what the loop does itself: deskewing, the rules.
+  int threads = 1;                     ///< Lidars that are measured at a time; they do not change a byte.
 };
 
 /// What a driver knows. Layers are valid until it returns.
@@ -33,7 +36,7 @@ struct Seen {
   const Grid& grid;
   std::int64_t stamp_ns;  ///< Of the newest return in the layers.
   double layers_age_s;    ///< When the driver's command takes effect.
-  planner::State state;   ///< By the odometry, at the end of the turn.
+  planner::State state;   ///< By the odometry, at the end of the turn; speed and curvature, too.
 };
 
 struct Decision {
@@ -61,7 +64,6 @@ class Loop {
   void add_odometry(int step);
   void move();
   tl::expected<std::int64_t, std::string> map_turn();
-  [[nodiscard]] planner::State odometry_state() const;
   void write_step(const Decision& decision, double layers_age_s);
   [[nodiscard]] bool has_ended() const { return log_.is_done || log_.mishap; }
 
@@ -71,7 +73,7 @@ class Loop {
   Watch watch_;
   sim::OdometryErrors errors_;
   OdometryBuffer odometry_;
-  StampedPose last_odometry_;
+  planner::MotionEstimate motion_;
   std::vector<sim::LidarModel> lidars_;
   std::vector<std::size_t> order_;  // of the lidars, by when their sweeps end
   std::vector<sim::SweepSimulator> simulators_;

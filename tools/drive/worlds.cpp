@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <utility>
 
 #include "tools/drive/cover.hpp"
 #include "tools/drive/land.hpp"
+#include "tools/sim/world_files.hpp"
 
 namespace gvom::driving {
 namespace {
@@ -170,6 +172,15 @@ tl::expected<CourseWorld, std::string> make_test_world(const std::string& name) 
   if (name == "test-3") return make_step("test-3", true);
   if (name == "test-4") return make_step("test-4", false);
   return tl::unexpected(name + ": no such test; there are test-1, test-2, test-3 and test-4");
+}
+
+tl::expected<CourseWorld, std::string> read_course_world(const std::string& folder) {
+  auto data = sim::read_world(folder);
+  if (!data) return tl::unexpected(data.error());
+  if (data->path_m.size() < 2) return tl::unexpected(folder + ": its path is a start without a waypoint");
+  const std::vector<Eigen::Vector2d> line = data->path_m;
+  const std::filesystem::path path = std::filesystem::absolute(folder).lexically_normal();
+  return finish((path.has_filename() ? path : path.parent_path()).filename(), std::move(*data), line);
 }
 
 }  // namespace gvom::driving

@@ -20,7 +20,10 @@ LayerStorage::LayerStorage(const MapConfig& map) {
 }
 
 Pipeline::Pipeline(const Vehicle& vehicle, std::size_t max_returns)
-    : fuser_(vehicle.mapper), layers_(vehicle.mapper.map) {
+    : Pipeline(vehicle, max_returns, std::make_unique<cpu::Fusion>(vehicle.mapper)) {}
+
+Pipeline::Pipeline(const Vehicle& vehicle, std::size_t max_returns, std::unique_ptr<FusionBackend> fusion)
+    : fuser_(std::move(fusion)), layers_(vehicle.mapper.map) {
   for (const LidarGeometry& lidar : vehicle.lidars) mappers_.emplace_back(vehicle.mapper, lidar, max_returns);
 }
 

@@ -37,6 +37,8 @@ class Pipeline {
  public:
   /// `max_returns`: the most that a sweep can have.
   Pipeline(const Vehicle& vehicle, std::size_t max_returns);
+  /// With something else than core's own fusion on the CPU.
+  Pipeline(const Vehicle& vehicle, std::size_t max_returns, std::unique_ptr<FusionBackend> fusion);
 
   /// Maps and fuses a sweep of the lidar with this index. Errors say why it was not.
   tl::expected<void, std::string> add(std::size_t lidar, const Sweep& sweep, const OdometryBuffer& odometry);

@@ -68,6 +68,7 @@ bool read_seeds(const std::string& seeds, CampaignOptions& options) {
 
 tl::expected<CourseWorld, std::string> world_of(const CampaignOptions& options, std::uint64_t seed) {
   if (!options.course.empty()) return make_test_world(options.course);
+  if (!options.folder_of_world.empty()) return read_course_world(options.folder_of_world);
   return make_campaign_world(seed, options.length_m);
 }
 
@@ -75,6 +76,7 @@ SessionOptions session_options(const CampaignOptions& options, std::uint64_t see
   SessionOptions session;
   session.sensor = options.sensor;
   session.odometry_noise = {options.noise[0], options.noise[1]};
+  session.ablation = options.ablation;
   session.seed = seed;
   return session;
 }

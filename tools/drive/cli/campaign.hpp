@@ -15,8 +15,10 @@ namespace gvom::driving {
 struct CampaignOptions {
   std::uint64_t first_seed = 1;
   std::uint64_t last_seed = 1;
-  std::string course;  ///< Of `make_test_world`; empty: random worlds.
+  std::string course;           ///< Of `make_test_world`; empty: random worlds.
+  std::string folder_of_world;  ///< A world from files (`sim::read_world`) instead; empty: none.
   double length_m = 300;
+  Ablation ablation = Ablation::none;
   sim::Sensor sensor = sim::Sensor::os1_64;
   std::vector<double> noise{0.02, 0.002};  ///< Metres, radians.
   int threads = 1;                         ///< Worlds at a time; they do not change a byte.

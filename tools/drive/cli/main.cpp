@@ -50,7 +50,7 @@ int main(int argc, char** argv) {
       "Drives a simulated vehicle by the reference planner, in lock-step: simulated sweeps are mapped "
       "and fused, the planner plans, the vehicle moves."};
   driving::CampaignOptions options;
-  std::string vehicle, seeds = "1", sensor = "os1-64";
+  std::string vehicle, seeds = "1", sensor, ablation = "none";
   std::vector<std::string> sets;
   bool live = false;
   app.add_option("--config", vehicle, "the vehicle's file")->required();
@@ -58,9 +58,15 @@ int main(int argc, char** argv) {
   app.add_option("--seeds", seeds, "of random worlds: N, or FIRST..LAST")->capture_default_str();
   app.add_option("--course", options.course, "test-1 .. test-4, the paper's tests, instead of random worlds");
   app.add_option("--length", options.length_m, "of random worlds, metres")
-      ->check(CLI::Range(60.0, 1000.0))
+      ->check(CLI::Range(40.0, 1000.0))
       ->capture_default_str();
-  app.add_option("--sensor", sensor, "that all lidars are: os1-64, os1-128")->capture_default_str();
+  app.add_option(
+         "--world", options.folder_of_world,
+         "DIR with ground.npy, surface.npy and objects.json, as gvom-sim has them; its path is driven")
+      ->check(CLI::ExistingDirectory);
+  app.add_option("--sensor", sensor, "that all lidars are: os1-64, os1-128; else by the vehicle's file");
+  app.add_option("--ablation", ablation,
+                 "takes something from the map: deskew-off, memory-off, one-lidar, paper-R9, paper-R13");
   app.add_option("--noise", options.noise, "of the odometry: metres, radians")->expected(2);
   app.add_option("--threads", options.threads, "worlds at a time; they change no byte")
       ->check(CLI::Range(1, 64))
@@ -75,9 +81,13 @@ int main(int argc, char** argv) {
 
   auto config = services::load_vehicle_config(vehicle, sets);
   if (!config) return fail(ExitCode::configuration, config.error().text());
-  const auto found = sim::find_sensor(sensor);
+  const tl::expected<sim::Sensor, std::string> found =
+      sensor.empty() ? driving::sensor_of(*config) : sim::find_sensor(sensor);
   if (!found) return fail(ExitCode::usage, found.error());
   options.sensor = *found;
+  const auto taken = driving::find_ablation(ablation);
+  if (!taken) return fail(ExitCode::usage, taken.error());
+  options.ablation = *taken;
   if (!driving::read_seeds(seeds, options))
     return fail(ExitCode::usage, "--seeds: expected N or FIRST..LAST");
   if (live) return drive_live(*config, options, lifecycle);

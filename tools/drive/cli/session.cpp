@@ -65,6 +65,12 @@ int count_stops(const DriveLog& log) {
 
 }  // namespace
 
+sim::Sensor sensor_of(const services::VehicleConfig& config) {
+  constexpr int kReturnsOf128 = 128 * 1024;
+  const bool is_128 = !config.lidars.empty() && config.lidars.front().max_returns == kReturnsOf128;
+  return is_128 ? sim::Sensor::os1_128 : sim::Sensor::os1_64;
+}
+
 Rig rig_of(const services::VehicleConfig& config, sim::Sensor sensor) {
   Rig rig;
   rig.model.limits = config.planner.vehicle;
@@ -117,6 +123,8 @@ tl::expected<SessionResult, std::string> run_session(const CourseWorld& course,
                                                      const services::VehicleConfig& config,
                                                      const SessionOptions& options,
                                                      const Onlooker& onlooker) {
+  const auto rig = ablated(rig_of(config, options.sensor), options.ablation);
+  if (!rig) return tl::unexpected(rig.error());
   const sim::World world(course.data);
   const sim::GroundTruth truth =
       sim::sample_truth(world, {config.mapper.map.resolution_xy_m, 0.0, options.threads});
@@ -126,8 +134,9 @@ tl::expected<SessionResult, std::string> run_session(const CourseWorld& course,
   LoopOptions loop_options;
   loop_options.seed = options.seed;
   loop_options.odometry_noise = options.odometry_noise;
+  loop_options.ablation = options.ablation;
   loop_options.threads = options.threads;
-  Loop loop(world, obstacles, rig_of(config, options.sensor), course.start, loop_options);
+  Loop loop(world, obstacles, *rig, course.start, loop_options);
   Chauffeur chauffeur(config, course.waypoints_m, onlooker);
   auto log = drive(
       loop, [&chauffeur](const Seen& seen) { return chauffeur(seen); }, most_seconds(options, result.way));

@@ -20,6 +20,7 @@ namespace gvom::driving {
 struct SessionOptions {
   sim::Sensor sensor = sim::Sensor::os1_64;
   sim::OdometryNoise odometry_noise{0.02, 0.002};
+  Ablation ablation = Ablation::none;
   std::uint64_t seed = 1;
   int threads = 1;
   double patience = 6;  ///< Times the truth planner's time, and a minute, it may take.
@@ -38,6 +39,10 @@ struct SessionResult {
   double top_speed_mps = 0;
   std::vector<double> cycle_ms;  ///< Of the planner, each.
 };
+
+/// What a vehicle's lidars are: OS1-128 if the first has room for just its returns (`max_returns` 131072),
+/// else OS1-64.
+sim::Sensor sensor_of(const services::VehicleConfig& config);
 
 // What sessions in lock-step and in real time have in common.
 Rig rig_of(const services::VehicleConfig& config, sim::Sensor sensor);
