@@ -12,17 +12,17 @@ namespace {
 
 constexpr double kAtAStand_mps = 0.05;
 
-const char* name_of(sim::ObjectClass what) {
-  constexpr const char* kNames[] = {"ground", "tree",  "bush", "rock", "ditch", "step face",  "branch",
-                                    "person", "grass", "wall", "car",  "water", "dark ground"};
-  return kNames[static_cast<int>(what)];
-}
-
 Mishap mishap_of(const Vehicle& vehicle, Accident what) {
   return {what, vehicle.time_s(), vehicle.T_odom_base().translation_m, vehicle.state().speed_mps};
 }
 
 }  // namespace
+
+const char* words_of(sim::ObjectClass what) {
+  constexpr const char* kNames[] = {"ground", "tree",  "bush", "rock", "ditch", "step face",  "branch",
+                                    "person", "grass", "wall", "car",  "water", "dark ground"};
+  return kNames[static_cast<int>(what)];
+}
 
 const char* words_of(Accident what) {
   switch (what) {
@@ -43,7 +43,7 @@ const char* words_of(Accident what) {
 std::string describe(const Mishap& mishap) {
   std::string met;
   if (mishap.against != sim::ObjectClass::ground)
-    met = std::string(mishap.what == Accident::fell ? " into " : " ") + name_of(mishap.against);
+    met = std::string(mishap.what == Accident::fell ? " into " : " ") + words_of(mishap.against);
   if (mishap.object >= 0) met += " " + std::to_string(mishap.object);
   char text[160];
   std::snprintf(text, sizeof text, "%s%s at (%.1f, %.1f) m after %.1f s, at %.1f m/s", words_of(mishap.what),

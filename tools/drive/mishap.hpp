@@ -24,6 +24,7 @@ struct Mishap {
   sim::ObjectClass against = sim::ObjectClass::ground;  ///< What it met.
 };
 const char* words_of(Accident what);
+const char* words_of(sim::ObjectClass what);
 /// "hit rock 17 at (12.3, -4.5) m after 8.1 s, at 3.2 m/s"
 std::string describe(const Mishap& mishap);
 

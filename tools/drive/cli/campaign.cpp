@@ -1,13 +1,11 @@
 #include "tools/drive/cli/campaign.hpp"
 
-#include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <cstdio>
-#include <map>
 #include <mutex>
 
 #include "tools/drive/cli/log_file.hpp"
+#include "tools/drive/cli/table.hpp"
 #include "tools/sim/parallel.hpp"
 
 namespace gvom::driving {
@@ -18,42 +16,12 @@ bool read_seed(std::string_view text, std::uint64_t& seed) {
   return result.ec == std::errc{} && result.ptr == text.data() + text.size();
 }
 
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return NAN;
-  const auto place = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1) + 0.5);
-  std::nth_element(values.begin(), values.begin() + place, values.end());
-  return values[static_cast<std::size_t>(place)];
-}
-
 template <class... Values>
 std::string text(const char* format, Values... values) {
   char line[320];
   std::snprintf(line, sizeof line, format, values...);
   return line;
 }
-
-/// Sums over the rows.
-struct Totals {
-  int worlds = 0, with_way = 0, arrived = 0, stuck = 0, stops = 0;
-  std::map<std::string, int> mishaps;
-  std::vector<double> time_ratios, speeds_mps, top_speeds_mps, nearest_m, cycle_ms;
-
-  void add(const SessionResult& result) {
-    ++worlds;
-    with_way += result.way ? 1 : 0;
-    stops += result.false_stops;
-    const DriveLog& log = result.log;
-    if (log.mishap) ++mishaps[words_of(log.mishap->what)];
-    if (result.way && (result.outcome == Outcome::gave_up || result.outcome == Outcome::too_slow)) ++stuck;
-    top_speeds_mps.push_back(result.top_speed_mps);
-    nearest_m.push_back(log.nearest_m);
-    cycle_ms.insert(cycle_ms.end(), result.cycle_ms.begin(), result.cycle_ms.end());
-    if (result.outcome != Outcome::arrived) return;
-    ++arrived;
-    speeds_mps.push_back(log.driven_m / log.seconds());
-    if (result.way) time_ratios.push_back(log.seconds() / result.way->seconds);
-  }
-};
 
 }  // namespace
 
@@ -92,36 +60,21 @@ std::string line_of(const Row& row) {
 }
 
 std::string table_of(const std::vector<Row>& rows) {
-  Totals all;
-  for (const Row& row : rows) all.add(row.result);
-  std::string out = text("worlds %d, with a way %d\narrived %d\nstuck though there was a way %d\n",
-                         all.worlds, all.with_way, all.arrived, all.stuck);
-  int mishaps = 0;
-  for (const auto& [what, count] : all.mishaps) {
-    out += text("%s %d\n", what.c_str(), count);
-    mishaps += count;
-  }
-  out += text("mishaps %d\nfalse stops %d\n", mishaps, all.stops);
-  out += text("time over the truth planner's: p50 %.2f, p90 %.2f, max %.2f\n", quantile(all.time_ratios, 0.5),
-              quantile(all.time_ratios, 0.9), quantile(all.time_ratios, 1));
-  out += text("mean speed p50 %.2f m/s, top speed p50 %.2f, max %.2f m/s\n", quantile(all.speeds_mps, 0.5),
-              quantile(all.top_speeds_mps, 0.5), quantile(all.top_speeds_mps, 1));
-  out += text("nearest to an obstacle: min %.2f, p50 %.2f m\n", quantile(all.nearest_m, 0),
-              quantile(all.nearest_m, 0.5));
-  out += text("planner's cycle: p50 %.1f, p99 %.1f, max %.1f ms\n", quantile(all.cycle_ms, 0.5),
-              quantile(all.cycle_ms, 0.99), quantile(all.cycle_ms, 1));
-  return out;
+  std::vector<Figures> all;
+  for (const Row& row : rows) all.push_back(figures_of(row.world, row.seed, row.result));
+  return text_of(summary_of(all)) + text_of(benchmark_of(all));
 }
 
 tl::expected<std::vector<Row>, std::string> run_campaign(const services::VehicleConfig& config,
                                                          const CampaignOptions& options,
                                                          const std::function<void(const Row&)>& done) {
-  const int count = static_cast<int>(options.last_seed - options.first_seed) + 1;
-  std::vector<tl::expected<Row, std::string>> rows(static_cast<std::size_t>(count),
-                                                   tl::unexpected(std::string()));
+  std::vector<std::uint64_t> seeds;
+  for (std::uint64_t seed = options.first_seed; seed <= options.last_seed; ++seed)
+    if (options.driven.count(seed) == 0) seeds.push_back(seed);
+  std::vector<tl::expected<Row, std::string>> rows(seeds.size(), tl::unexpected(std::string()));
   std::mutex mutex;
-  sim::parallel_for(count, options.threads, [&](int i) {
-    const std::uint64_t seed = options.first_seed + static_cast<std::uint64_t>(i);
+  sim::parallel_for(static_cast<int>(seeds.size()), options.threads, [&](int i) {
+    const std::uint64_t seed = seeds[static_cast<std::size_t>(i)];
     auto& row = rows[static_cast<std::size_t>(i)];
     const auto world = world_of(options, seed);
     if (!world) return static_cast<void>(row = tl::unexpected(world.error()));

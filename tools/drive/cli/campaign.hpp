@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -15,8 +16,9 @@ namespace gvom::driving {
 struct CampaignOptions {
   std::uint64_t first_seed = 1;
   std::uint64_t last_seed = 1;
-  std::string course;           ///< Of `make_test_world`; empty: random worlds.
-  std::string folder_of_world;  ///< A world from files (`sim::read_world`) instead; empty: none.
+  std::set<std::uint64_t> driven;  ///< Not again.
+  std::string course;              ///< Of `make_test_world`; empty: random worlds.
+  std::string folder_of_world;     ///< A world from files (`sim::read_world`) instead; empty: none.
   double length_m = 300;
   Ablation ablation = Ablation::none;
   sim::Sensor sensor = sim::Sensor::os1_64;

@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <cstdio>
 #include <mutex>
+#include <optional>
+#include <sstream>
 
 #include "services/common/config_file.hpp"
 #include "services/common/exit_code.hpp"
 #include "services/common/log.hpp"
 #include "tools/drive/cli/campaign.hpp"
 #include "tools/drive/cli/log_file.hpp"
+#include "tools/drive/cli/table.hpp"
 #include "tools/drive/live/run_live.hpp"
 
 namespace {
@@ -21,6 +24,39 @@ using services::ExitCode;
 int fail(ExitCode code, const std::string& message) {
   std::fprintf(stderr, "gvom-drive: %s\n", message.c_str());
   return to_int(code);
+}
+
+/// The options that a drive depends on, as a command has them.
+std::string command_of(const std::string& vehicle, const std::vector<std::string>& sets,
+                       const driving::CampaignOptions& options) {
+  std::ostringstream out;
+  out << "--config " << vehicle;
+  for (const std::string& set : sets) out << " --set " << set;
+  if (!options.course.empty()) out << " --course " << options.course;
+  if (!options.folder_of_world.empty()) out << " --world " << options.folder_of_world;
+  out << " --length " << options.length_m << " --sensor " << sim::name_of(options.sensor) << " --noise "
+      << options.noise[0] << " " << options.noise[1] << " --ablation " << driving::name_of(options.ablation);
+  return out.str();
+}
+
+int drive_all(const services::VehicleConfig& config, driving::CampaignOptions options,
+              const std::string& rows_path, const driving::Making& making) {
+  std::optional<driving::RowsFile> file;
+  if (!rows_path.empty()) {
+    auto opened = driving::RowsFile::open(rows_path, making);
+    if (!opened) return fail(ExitCode::usage, opened.error());
+    file = std::move(*opened);
+    options.driven = file->seeds();
+  }
+  const auto rows = driving::run_campaign(config, options, [&](const driving::Row& row) {
+    std::fprintf(stderr, "%s\n", driving::line_of(row).c_str());
+    if (file && !file->append(driving::figures_of(row.world, row.seed, row.result)))
+      std::fprintf(stderr, "gvom-drive: %s cannot be written\n", rows_path.c_str());
+  });
+  if (!rows) return fail(ExitCode::unavailable, rows.error());
+  if (!file) return std::fputs(driving::table_of(*rows).c_str(), stdout), 0;
+  std::fputs(driving::text_of(driving::summary_of(file->figures())).c_str(), stdout);
+  return 0;
 }
 
 /// The first seed's world through the processes on the bus. 0: the vehicle arrived.
@@ -50,7 +86,7 @@ int main(int argc, char** argv) {
       "Drives a simulated vehicle by the reference planner, in lock-step: simulated sweeps are mapped "
       "and fused, the planner plans, the vehicle moves."};
   driving::CampaignOptions options;
-  std::string vehicle, seeds = "1", sensor, ablation = "none";
+  std::string vehicle, seeds = "1", sensor, ablation = "none", rows_path;
   std::vector<std::string> sets;
   bool live = false;
   app.add_option("--config", vehicle, "the vehicle's file")->required();
@@ -71,6 +107,8 @@ int main(int argc, char** argv) {
   app.add_option("--threads", options.threads, "worlds at a time; they change no byte")
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
+  app.add_option("--rows", rows_path,
+                 "adds a row for each drive to this file as it ends, and drives no world that is in it");
   auto* out = app.add_option("--out", options.folder, "logs and pictures go there");
   app.add_flag(
          "--real-time", live,
@@ -91,10 +129,6 @@ int main(int argc, char** argv) {
   if (!driving::read_seeds(seeds, options))
     return fail(ExitCode::usage, "--seeds: expected N or FIRST..LAST");
   if (live) return drive_live(*config, options, lifecycle);
-  const auto rows = driving::run_campaign(*config, options, [](const driving::Row& row) {
-    std::fprintf(stderr, "%s\n", driving::line_of(row).c_str());
-  });
-  if (!rows) return fail(ExitCode::unavailable, rows.error());
-  std::fputs(driving::table_of(*rows).c_str(), stdout);
-  return 0;
+  const driving::Making making{command_of(vehicle, sets, options), driving::hash_of_file(vehicle)};
+  return drive_all(*config, options, rows_path, making);
 }
