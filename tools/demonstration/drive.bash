@@ -20,7 +20,7 @@ start_vehicle() {
   for lidar in "${lidars[@]}"; do
     config+=(--set "lidars.$lidar.source='ouster-udp:$((port++))?meta=$out/$lidar.json'")
   done
-  start gvom-drive "$bin/gvom-drive" "${config[@]}" --real-time --seeds "$seed" --length "$length" --out "$out"
+  start gvom-drive "$bin/gvom-drive" "${config[@]}" --real-time --seeds "$seed" --length "$length" --strip all --out "$out"
   await_words gvom-drive 'stands at its start'
 }
 

@@ -78,10 +78,12 @@ tl::expected<std::vector<Row>, std::string> run_campaign(const services::Vehicle
     auto& row = rows[static_cast<std::size_t>(i)];
     const auto world = world_of(options, seed);
     if (!world) return static_cast<void>(row = tl::unexpected(world.error()));
-    DriveFile file(options.folder, world->name, seed);
-    auto result = run_session(*world, config, session_options(options, seed), file.onlooker());
+    Witness witness(options.folder, *world, seed, options.strips);
+    auto result = run_session(*world, config, session_options(options, seed), witness.onlooker());
     if (!result) return static_cast<void>(row = tl::unexpected(result.error()));
     row = Row{world->name, seed, std::move(*result)};
+    if (auto drawn = witness.finish(config.planner.vehicle, row->result.outcome, line_of(*row)); !drawn)
+      return static_cast<void>(row = tl::unexpected(drawn.error()));
     const std::lock_guard lock(mutex);
     done(*row);
   });

@@ -10,6 +10,7 @@
 #include <tl/expected.hpp>
 
 #include "tools/drive/cli/session.hpp"
+#include "tools/drive/cli/witness.hpp"
 
 namespace gvom::driving {
 
@@ -24,7 +25,8 @@ struct CampaignOptions {
   sim::Sensor sensor = sim::Sensor::os1_64;
   std::vector<double> noise{0.02, 0.002};  ///< Metres, radians.
   int threads = 1;                         ///< Worlds at a time; they do not change a byte.
-  std::string folder;                      ///< Logs go there; empty: none.
+  std::string folder;                      ///< Logs and pictures go there; empty: none.
+  Strips strips = Strips::failed;
 };
 
 /// "7" or "1..200".

@@ -12,7 +12,6 @@
 #include "services/common/exit_code.hpp"
 #include "services/common/log.hpp"
 #include "tools/drive/cli/campaign.hpp"
-#include "tools/drive/cli/log_file.hpp"
 #include "tools/drive/cli/table.hpp"
 #include "tools/drive/live/run_live.hpp"
 
@@ -66,12 +65,15 @@ int drive_live(const services::VehicleConfig& config, const driving::CampaignOpt
   const auto world = driving::world_of(options, seed);
   if (!world) return fail(ExitCode::usage, world.error());
   services::init_logging("gvom-drive");
-  driving::DriveFile file(options.folder, world->name, seed);
+  driving::Witness witness(options.folder, *world, seed, options.strips);
   auto result = driving::run_live(*world, config, driving::session_options(options, seed), options.folder,
-                                  lifecycle, file.onlooker());
+                                  lifecycle, witness.onlooker());
   if (!result) return to_int(result.error());
   const bool arrived = result->session.outcome == driving::Outcome::arrived;
   const driving::Row row{world->name, seed, std::move(result->session)};
+  if (const auto drawn = witness.finish(config.planner.vehicle, row.result.outcome, driving::line_of(row));
+      !drawn)
+    return fail(ExitCode::unavailable, drawn.error());
   std::printf("%s\n%s%s\n", driving::line_of(row).c_str(), driving::table_of({row}).c_str(),
               result->figures.c_str());
   std::fflush(stdout);
@@ -86,7 +88,7 @@ int main(int argc, char** argv) {
       "Drives a simulated vehicle by the reference planner, in lock-step: simulated sweeps are mapped "
       "and fused, the planner plans, the vehicle moves."};
   driving::CampaignOptions options;
-  std::string vehicle, seeds = "1", sensor, ablation = "none", rows_path;
+  std::string vehicle, seeds = "1", sensor, ablation = "none", rows_path, strips = "failed";
   std::vector<std::string> sets;
   bool live = false;
   app.add_option("--config", vehicle, "the vehicle's file")->required();
@@ -110,6 +112,8 @@ int main(int argc, char** argv) {
   app.add_option("--rows", rows_path,
                  "adds a row for each drive to this file as it ends, and drives no world that is in it");
   auto* out = app.add_option("--out", options.folder, "logs and pictures go there");
+  app.add_option("--strip", strips, "of which drives OUT/WORLD-SEED.png is left: none, failed, all")
+      ->capture_default_str();
   app.add_flag(
          "--real-time", live,
          "one world, through the real processes: sends packets to the lidars' ports, odometry and a course "
@@ -126,6 +130,9 @@ int main(int argc, char** argv) {
   const auto taken = driving::find_ablation(ablation);
   if (!taken) return fail(ExitCode::usage, taken.error());
   options.ablation = *taken;
+  const auto wanted = driving::find_strips(strips);
+  if (!wanted) return fail(ExitCode::usage, "--strip " + wanted.error());
+  options.strips = *wanted;
   if (!driving::read_seeds(seeds, options))
     return fail(ExitCode::usage, "--seeds: expected N or FIRST..LAST");
   if (live) return drive_live(*config, options, lifecycle);
