@@ -12,6 +12,7 @@
 #include "services/common/exit_code.hpp"
 #include "services/common/log.hpp"
 #include "tools/drive/cli/campaign.hpp"
+#include "tools/drive/cli/course_run.hpp"
 #include "tools/drive/cli/table.hpp"
 #include "tools/drive/live/run_live.hpp"
 
@@ -58,6 +59,13 @@ int drive_all(const services::VehicleConfig& config, driving::CampaignOptions op
   return 0;
 }
 
+int drive_course(const services::VehicleConfig& config, const driving::CampaignOptions& options) {
+  const auto run = driving::run_course(config, options);
+  if (!run) return fail(ExitCode::unavailable, run.error());
+  std::printf("%s\n%s", driving::line_of(run->row).c_str(), run->figures.c_str());
+  return run->row.result.outcome == driving::Outcome::arrived ? 0 : 1;
+}
+
 /// The first seed's world through the processes on the bus. 0: the vehicle arrived.
 int drive_live(const services::VehicleConfig& config, const driving::CampaignOptions& options,
                services::Lifecycle& lifecycle) {
@@ -90,11 +98,12 @@ int main(int argc, char** argv) {
   driving::CampaignOptions options;
   std::string vehicle, seeds = "1", sensor, ablation = "none", rows_path, strips = "failed";
   std::vector<std::string> sets;
-  bool live = false;
+  bool live = false, figures = false;
   app.add_option("--config", vehicle, "the vehicle's file")->required();
   app.add_option("--set", sets, "overrides a key of it: KEY=VALUE");
   app.add_option("--seeds", seeds, "of random worlds: N, or FIRST..LAST")->capture_default_str();
-  app.add_option("--course", options.course, "test-1 .. test-4, the paper's tests, instead of random worlds");
+  auto* course = app.add_option("--course", options.course,
+                                "test-1 .. test-4, the paper's tests, instead of random worlds");
   app.add_option("--length", options.length_m, "of random worlds, metres")
       ->check(CLI::Range(40.0, 1000.0))
       ->capture_default_str();
@@ -114,6 +123,10 @@ int main(int argc, char** argv) {
   auto* out = app.add_option("--out", options.folder, "logs and pictures go there");
   app.add_option("--strip", strips, "of which drives OUT/WORLD-SEED.png is left: none, failed, all")
       ->capture_default_str();
+  app.add_flag("--figures", figures,
+               "of the course: pictures and numbers, the driven way against the waypoints'")
+      ->needs(out)
+      ->needs(course);
   app.add_flag(
          "--real-time", live,
          "one world, through the real processes: sends packets to the lidars' ports, odometry and a course "
@@ -135,6 +148,7 @@ int main(int argc, char** argv) {
   options.strips = *wanted;
   if (!driving::read_seeds(seeds, options))
     return fail(ExitCode::usage, "--seeds: expected N or FIRST..LAST");
+  if (figures) return drive_course(*config, options);
   if (live) return drive_live(*config, options, lifecycle);
   const driving::Making making{command_of(vehicle, sets, options), driving::hash_of_file(vehicle)};
   return drive_all(*config, options, rows_path, making);

@@ -142,7 +142,8 @@ void draw_frame(Canvas& canvas, const View& view, const Frame& frame, const std:
   draw_vehicle(canvas, view, frame.place, vehicle);
   canvas.outline({double(view.left), double(view.top)}, kFrame_px, kFrame_px, snapshot::kFaintInk);
   char when[64];
-  std::snprintf(when, sizeof when, "%.1f s   %.1f m/s", frame.time_s, frame.speed_mps);
+  std::snprintf(when, sizeof when, "%.1f s   %.1f m/s", frame.time_s,
+                std::abs(frame.speed_mps) < 0.1 ? 0.0 : frame.speed_mps);  // a stand, but for the noise
   canvas.text({view.left + 6.0, view.top + 18.0}, when, {14, snapshot::kInk, true});
   draw_why(canvas, view.left, view.top + kFrame_px + 15, frame.why);
 }
