@@ -37,7 +37,7 @@ struct SessionResult {
   DriveLog log;
   int false_stops = 0;  ///< Times that it stood for over a second before its end.
   double top_speed_mps = 0;
-  std::vector<double> cycle_ms;  ///< Of the planner, each.
+  std::vector<double> cycle_ms;  ///< Of the planner, each: of the processor, by the clock if in real time.
 };
 
 /// What a vehicle's lidars are: OS1-128 if the first has room for just its returns (`max_returns` 131072),
