@@ -163,7 +163,8 @@ TEST_CASE("the hash tells configurations apart, however they were written, and n
 }
 
 TEST_CASE("the shipped vehicle files load") {
-  for (const std::string name : {"kitti", "ouster_os1_128", "two_lidars", "warthog"}) {
+  for (const std::string name :
+       {"kitti", "moose", "ouster_os1_128", "ranger", "two_lidars", "warthog", "warthog_two"}) {
     const auto config = services::load_vehicle_config(GVOM_SOURCE_DIR "/config/vehicles/" + name + ".yaml");
     INFO((config ? "" : config.error().text()));
     REQUIRE(config);
