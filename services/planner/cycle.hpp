@@ -12,6 +12,7 @@
 #include "services/planner/prediction.hpp"
 #include "services/planner/retreat.hpp"
 #include "services/planner/search.hpp"
+#include "services/planner/soft_places.hpp"
 #include "services/planner/speed.hpp"
 
 namespace gvom::planner {
@@ -27,7 +28,7 @@ class Planner::Impl {
   void observe(const State& state, const Senses& senses);
   /// @return whether the planner may look at the map; if not, the plan says why.
   bool may_plan(const MapView* map, const Senses& senses);
-  void drive(const MapView& map, const Senses& senses);
+  void drive(const MapView& seen, const Senses& senses);
   void back(const Predicted& at, const Senses& senses);
   /// @return whether there is a way; if not, the plan says why.
   bool find_way(const MapView& map, const Predicted& at);
@@ -57,6 +58,7 @@ class Planner::Impl {
   Fan fan_;
   SpeedProfile profile_;
   Prediction prediction_;
+  SoftPlaces soft_;
   ClosedPlaces closed_;
   Movers movers_;
   Retreat retreat_;

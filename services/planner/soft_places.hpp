@@ -1,0 +1,42 @@
+// What was soft from afar is soft when it is near.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "services/planner/map_view.hpp"
+
+namespace gvom::planner {
+
+/// Within the blind ring of a lidar few rays come through grass and bushes, and what was SOFT all the way up
+/// becomes HARD beside the vehicle. A column that was SOFT from farther than `kNear_m` stays so within that.
+/// So does an open one next to it: odometry's noise moves edges by a column. One that was HARD, or has such a
+/// neighbour, and one that was never seen from afar, is HARD.
+class SoftPlaces {
+ public:
+  static constexpr double kNear_m = 3;
+  static constexpr std::uint8_t kSure = 3;  ///< In so many maps, one after the other.
+
+  /// @param n_xy the largest map, columns along an edge
+  explicit SoftPlaces(int n_xy);
+
+  /// Forgets all: the map begins anew.
+  void clear();
+  /// Each cycle with a map. @return the map with flags that hold that. It borrows the map's arrays, and is
+  /// valid until the next call.
+  MapView soften(const MapView& map, const Eigen::Vector2d& vehicle_m);
+
+ private:
+  static constexpr std::uint8_t kWasHard = 255;
+
+  /// The states of the last map by this one's columns.
+  void carry(const Cells& cells);
+  [[nodiscard]] bool was_soft(int cell) const;
+
+  Cells cells_;
+  std::vector<std::uint8_t> states_;  ///< In how many maps it was SOFT, or kWasHard.
+  std::vector<std::uint8_t> before_;
+  std::vector<std::uint8_t> flags_;
+};
+
+}  // namespace gvom::planner

@@ -1,0 +1,97 @@
+// What was soft from afar stays so beside the vehicle; what was hard does not become soft.
+#include "services/planner/soft_places.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "tests/planner_cycle/loop.hpp"
+
+namespace gvom::test {
+namespace {
+
+using planner::Mode;
+using planner::SoftPlaces;
+
+constexpr double kBush_x_m = 15, kBush_y_m = 10.2;
+
+/// A bush of five columns across, which the map has as `flag`.
+void place_bush(SmallMap& map, std::uint8_t flag) {
+  std::fill(map.flags.begin(), map.flags.end(), std::uint8_t{0});
+  map.where(disc(kBush_x_m, kBush_y_m, 0.9), [&](std::size_t i) { map.flags[i] = flag; });
+}
+
+/// Drives towards the bush from 8 to 2 m; the map has each column `afar` until 2.8 m from it, then `near`.
+/// @return the flags of the bush's middle at the end
+std::uint8_t flags_beside(std::uint8_t afar, std::uint8_t near) {
+  SmallMap map(64);
+  SoftPlaces soft(64);
+  planner::MapView view;
+  for (double away_m = 8; away_m >= 2; away_m -= 0.3) {
+    const Eigen::Vector2d vehicle_m(kBush_x_m - away_m, kBush_y_m);
+    place_bush(map, afar);
+    const auto turned = [&](double x, double y) {
+      return disc(kBush_x_m, kBush_y_m, 0.9)(x, y) && disc(vehicle_m.x(), vehicle_m.y(), 2.8)(x, y);
+    };
+    map.where(turned, [&](std::size_t i) { map.flags[i] = near; });
+    view = soft.soften(map.view(), vehicle_m);
+  }
+  return view.flags[map.cells().index_of(kBush_x_m, kBush_y_m)];
+}
+
+TEST_CASE("a bush stays soft beside the vehicle, a rock hard, and who steps in from open ground hard") {
+  CHECK(flags_beside(kSoft, kHard) == kSoft);
+  CHECK(flags_beside(kSoft, kSoft) == kSoft);
+  CHECK(flags_beside(kHard, kHard) == kHard);
+  CHECK(flags_beside(0, kHard) == kHard);
+}
+
+TEST_CASE("what became hard before it was near is hard, and so is what was never seen from afar") {
+  SmallMap map(64);
+  SoftPlaces soft(64);
+  const int middle = map.cells().index_of(kBush_x_m, kBush_y_m);
+  const auto look = [&](std::uint8_t flag, double away_m) {
+    place_bush(map, flag);
+    return soft.soften(map.view(), {kBush_x_m - away_m, kBush_y_m}).flags[middle];
+  };
+  for (int i = 0; i < SoftPlaces::kSure; ++i) look(kSoft, 6);
+  look(kHard, 5);
+  CHECK(look(kHard, 2) == kHard);
+  for (int i = 0; i < SoftPlaces::kSure; ++i) look(kSoft, 6);
+  CHECK(look(kHard, 2) == kSoft);
+  soft.clear();
+  CHECK(look(kHard, 2) == kHard);
+}
+
+TEST_CASE("what was soft is known by its place when the map moves on") {
+  SoftPlaces soft(64);
+  for (int i = 0; i < SoftPlaces::kSure; ++i) {
+    SmallMap before(64);
+    place_bush(before, kSoft);
+    soft.soften(before.view(), {kBush_x_m - 6, kBush_y_m});
+  }
+  SmallMap after(64, 2.4, -1.6);
+  place_bush(after, kHard);
+  const planner::MapView view = soft.soften(after.view(), {kBush_x_m - 2, kBush_y_m});
+  CHECK(view.flags[after.cells().index_of(kBush_x_m, kBush_y_m)] == kSoft);
+}
+
+TEST_CASE("the vehicle drives through grass that turns hard as it comes near") {
+  const planner::PlannerConfig config;
+  SmallMap map(128);
+  Loop loop(config, map, {5, 25, 0});
+  loop.planner.set_course({{44, 25}});
+  double slowest_mps = 1e9;
+  const bool arrives = loop.until(Mode::arrived, 30, [&](const planner::Plan&) {
+    const planner::Pose2& pose = loop.vehicle.pose();
+    const auto grass = box(23, 0, 26, 52);
+    const auto near = disc(pose.x_m, pose.y_m, 2.5);
+    map.where(grass, [&](std::size_t i) { map.flags[i] = kSoft; });
+    map.where([&](double x, double y) { return grass(x, y) && near(x, y); },
+              [&](std::size_t i) { map.flags[i] = kHard; });
+    if (pose.x_m > 15 && pose.x_m < 35) slowest_mps = std::min(slowest_mps, loop.vehicle.speed_mps());
+  });
+  CHECK(arrives);
+  CHECK(slowest_mps > 3);
+}
+
+}  // namespace
+}  // namespace gvom::test
