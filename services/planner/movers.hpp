@@ -1,4 +1,4 @@
-// What walks or drives near the vehicle, told by what the map has said before.
+// What moves, by where the map's obstacles get on, and the room that it can reach.
 #pragma once
 
 #include <Eigen/Core>
@@ -6,53 +6,99 @@
 #include <cstdint>
 #include <vector>
 
+#include "services/common/planner_config.hpp"
 #include "services/planner/map_view.hpp"
 
 namespace gvom::planner {
 
-/// Something hard now where `kBefore_ns` ago known ground was with nothing on it, for 0.4 m around: it has
-/// come there. Noise of the odometry moves edges by less, and what stands had a shadow behind it before it
-/// was seen to be hard. The room that it can reach until the vehicle is there is closed (HARD), so the
-/// vehicle goes behind, slows down or waits.
+/// A column that is HARD or SOFT, and was open ground with nothing within `kEdge_m` of it `kBack_ns` ago, may
+/// be of something that moves: who walks fills a voxel for so short a time that he is mostly SOFT. So may be
+/// one of a thing that shows itself late, or by turns, or piece by piece: that stays. Only where such columns
+/// get on by `kMoved_m` within `kGoing_ns`, no faster than `kRuns_mps`, and leave where they were, something
+/// moves; beside other things, where it does so twice, straight on. It is believed to for `kHold_ns`: who
+/// turns around walks where he just came from. The room that it can reach until the vehicle is there, or
+/// stands, is closed (HARD), so the vehicle goes behind, slows down or waits.
 class Movers {
  public:
-  static constexpr std::int64_t kBefore_ns = 600'000'000;
-  static constexpr double kNear_m = 12;      ///< Farther off, things come into sight.
-  static constexpr double kWalks_mps = 1.4;  ///< How fast, if it goes on.
-  static constexpr double kLeast_m = 1, kMost_m = 2.5;
+  static constexpr std::int64_t kBack_ns = 600'000'000;
+  static constexpr std::int64_t kGoing_ns = 1'000'000'000;
+  static constexpr std::int64_t kHold_ns = 1'200'000'000;
+  static constexpr double kMoved_m = 0.5;
+  static constexpr double kRuns_mps = 3;
+  static constexpr double kEdge_m = 0.4;  ///< So far the edge of what stands may flicker.
+  static constexpr double kSight_m = 15;  ///< From the vehicle; farther off, too little is known.
+  static constexpr double kByHole_m = 1;  ///< Nearer to a hole nothing is seen to move.
+  static constexpr double kLargest_m2 = 1;
+  static constexpr double kWalks_mps = 1.4;
+  static constexpr double kAround_m = 1;  ///< Closed around a mover,
+  static constexpr double kWidens = 0.3;  ///< and so much more for each metre that it may get on,
+  static constexpr double kAhead_m = 3;   ///< at most so far.
+
+  struct Disc {
+    Eigen::Vector2d middle_m = Eigen::Vector2d::Zero();
+    double radius_m = 0;
+  };
 
   /// @param n_xy the largest map, columns along an edge
-  explicit Movers(int n_xy);
+  Movers(const VehicleLimits& vehicle, int n_xy);
 
   /// Forgets all: the map begins anew.
   void clear();
-  /// Each cycle with a map. @param speed_mps of the vehicle
-  void observe(const MapView& map, const Pose2& vehicle, double speed_mps);
-  [[nodiscard]] bool empty() const { return movers_.empty(); }
-  /// The map with flags that hold that room. Borrows the map's arrays, and is valid until the next call.
+  /// Each cycle with a map, nothing closed in it. @param speed_mps of the vehicle
+  void observe(const MapView& map, const Eigen::Vector2d& vehicle_m, double speed_mps);
+  [[nodiscard]] bool empty() const { return discs_.empty(); }
+  /// Where each mover is, and ahead of it what it can reach.
+  [[nodiscard]] const std::vector<Disc>& discs() const { return discs_; }
+  /// The map with flags that hold these. Borrows the map's arrays, and is valid until the next call.
   MapView close(const MapView& map);
 
  private:
+  static constexpr std::size_t kMost = 16;
+  static constexpr std::size_t kPasts = 16;
+  static constexpr double kApart_m = 1.5;  ///< Columns nearer than this are of the same mover.
+
+  /// What is kept of a map.
   struct Past {
     std::int64_t stamp_ns = 0;
     Cells cells;
-    std::vector<std::uint8_t> is_open;  // 1: known ground with nothing on it
+    std::vector<std::uint8_t> known;     // 1: there is ground
+    std::vector<std::uint8_t> standing;  // 1: something is on it
   };
-  struct Mover {
-    Eigen::Vector2d middle_m;
-    double radius_m = 0;
-    std::int64_t stamp_ns = 0;
+  /// Columns near each other.
+  struct Found {
+    Eigen::Vector2d middle_m = Eigen::Vector2d::Zero();
+    int columns = 0;
   };
-  static constexpr std::size_t kPasts = 16, kMost = 8;
+  /// The same from cycle to cycle.
+  struct Track {
+    Eigen::Vector2d middle_m = Eigen::Vector2d::Zero();
+    std::int64_t seen_ns = 0;
+    Eigen::Vector2d from_m = Eigen::Vector2d::Zero();  ///< Where it was
+    std::int64_t from_ns = 0;                          ///< then; how far it gets from there is measured.
+    Eigen::Vector2d direction = Eigen::Vector2d::Zero();
+    std::int64_t moved_ns = 0;  ///< When it last had got on by `kMoved_m`.
+    bool moves = false;
+  };
 
   void remember(const MapView& map);
-  [[nodiscard]] const Past* past(std::int64_t stamp_ns) const;
-  static bool was_open(const Past& past, const Eigen::Vector2d& place_m);
-  void add(const Eigen::Vector2d& place_m, double radius_m, std::int64_t stamp_ns);
+  /// The newest that is old enough; nullptr: there is none.
+  [[nodiscard]] const Past* past_of(std::int64_t stamp_ns) const;
+  [[nodiscard]] static bool is_by_hole(const MapView& map, int index);
+  [[nodiscard]] static bool was_open(const Past& past, const Eigen::Vector2d& place_m);
+  /// Nothing else stands around it.
+  [[nodiscard]] static bool is_alone(const MapView& map, const Eigen::Vector2d& place_m);
+  void find(const MapView& map, const Past& past, const Eigen::Vector2d& vehicle_m);
+  void add(const Eigen::Vector2d& place_m);
+  void follow(const MapView& map);
+  static void go_on(const MapView& map, const Eigen::Vector2d& middle_m, Track& track);
+  void reach(const Eigen::Vector2d& vehicle_m, double speed_mps);
 
+  VehicleLimits vehicle_;
   std::array<Past, kPasts> pasts_;
   std::size_t taken_ = 0;
-  std::vector<Mover> movers_;
+  std::vector<Found> found_;
+  std::vector<Track> tracks_;
+  std::vector<Disc> discs_;
   std::vector<std::uint8_t> flags_;
 };
 

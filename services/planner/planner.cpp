@@ -39,7 +39,7 @@ Planner::Impl::Impl(const PlannerConfig& config, int n_xy)
       prediction_(config),
       soft_(n_xy),
       closed_(n_xy),
-      movers_(n_xy),
+      movers_(config.vehicle, n_xy),
       retreat_(config),
       course_(config),
       progress_(config.give_up_s) {
@@ -132,7 +132,7 @@ bool Planner::Impl::may_plan(const MapView* map, const Senses& senses) {
 
 void Planner::Impl::drive(const MapView& seen, const Senses& senses) {
   const MapView map = soft_.soften(seen, now_.pose.place());
-  movers_.observe(map, now_.pose, std::abs(now_.speed_mps));
+  movers_.observe(map, now_.pose.place(), now_.speed_mps);
   view_ = movers_.close(closed_.close(map));
   costs_.update(view_);
   const Predicted& at = prediction_.from(now_);

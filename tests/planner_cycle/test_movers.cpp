@@ -1,99 +1,193 @@
-// Who walks across the vehicle's way is not hit; what stands is no walker.
+// What moves in the map, and how the planner keeps off it.
+#include "services/planner/movers.hpp"
+
 #include <catch2/catch.hpp>
 
-#include "services/planner/movers.hpp"
 #include "tests/planner_cycle/loop.hpp"
 
 namespace gvom::test {
 namespace {
 
+using Eigen::Vector2d;
 using planner::Mode;
 using planner::Movers;
 using planner::Plan;
+using planner::PlannerConfig;
 
-constexpr std::int64_t kCycle_ns = 100'000'000;
-constexpr double kWalker_m = 0.3;  // half of his width
+constexpr std::int64_t kTurn_ns = 100'000'000;
+constexpr double kWalkerRadius_m = 0.3;
 
-/// The cell that a walker is in and those that he touches are HARD, as he goes along y.
-void place_walker(SmallMap& map, double x_m, double y_m) {
-  std::fill(map.flags.begin(), map.flags.end(), std::uint8_t{0});
-  const double reach_m = kWalker_m + SmallMap::kCell_m / 2;
-  map.obstacle(box(x_m - reach_m, y_m - reach_m, x_m + reach_m, y_m + reach_m));
+/// Puts whoever walks into a map, turn by turn: all cells that he touches.
+class Walker {
+ public:
+  /// @param flag that the map shows him as
+  Walker(SmallMap& map, std::uint8_t flag) : map_(map), flag_(flag), empty_(map.flags) {}
+
+  void stand_at(const Vector2d& middle_m) {
+    middle_m_ = middle_m;
+    map_.flags = empty_;
+    const double half_m = SmallMap::kCell_m / 2;
+    const auto touches = [&](double x, double y) {
+      const double dx = std::max(0.0, std::abs(x - middle_m.x()) - half_m);
+      const double dy = std::max(0.0, std::abs(y - middle_m.y()) - half_m);
+      return std::hypot(dx, dy) < kWalkerRadius_m;
+    };
+    map_.where(touches, [&](std::size_t i) { map_.flags[i] = flag_; });
+  }
+  [[nodiscard]] double away_m(const SmallVehicle& vehicle) const {
+    double least_m = 1e9;
+    for (int i = -10; i <= 10; ++i)
+      for (int k = -10; k <= 10; ++k)
+        least_m = std::min(least_m, (vehicle.outline(i / 10.0, k / 10.0) - middle_m_).norm());
+    return least_m - kWalkerRadius_m;
+  }
+
+ private:
+  SmallMap& map_;
+  std::uint8_t flag_;
+  std::vector<std::uint8_t> empty_;
+  Vector2d middle_m_{0, 0};
+};
+
+/// Movers as a planner of the map sees them, from (10, 10).
+struct Sight {
+  explicit Sight(SmallMap& a_map) : map(a_map), movers({}, a_map.cells().n) {}
+
+  void look(double speed_mps = 0) {
+    stamp_ns += kTurn_ns;
+    movers.observe(map.view(stamp_ns), {10, 10}, speed_mps);
+  }
+  /// The column (x, y) alone has this flag, of all.
+  void look_at(int x, int y, std::uint8_t flag) {
+    map.flags.assign(map.flags.size(), 0);
+    map.flags[static_cast<std::size_t>(y * 64 + x)] = flag;
+    look();
+  }
+
+  SmallMap& map;
+  Movers movers;
+  std::int64_t stamp_ns = 1'000'000'000;
+};
+
+TEST_CASE("what walks is closed as far as it gets until the vehicle is there or stands") {
+  for (const std::uint8_t flag : {kHard, kSoft}) {
+    SmallMap map(64);
+    Sight sight(map);
+    // 2 m/s along x, at y = 10.2 m: from turn 6 on a past is old enough, 0.6 m on from there it moves.
+    for (int turn = 0; turn < 10; ++turn) sight.look_at(30 + turn / 2, 25, flag);
+    CHECK(sight.movers.empty());
+    sight.look_at(35, 25, flag);
+    sight.look_at(35, 25, flag);
+    const Vector2d middle_m(35.5 * 0.4, 10.2);
+    REQUIRE(sight.movers.discs().size() == 1);  // standing: 0.3 s of latency, 0.42 m
+    CHECK(sight.movers.discs()[0].middle_m.isApprox(middle_m));
+    CHECK(sight.movers.discs()[0].radius_m == 1);
+    // 4.2 m away. At 4 m/s the vehicle is there in 1.05 s, and at a stand in 0.3 + 4 / 2.5 = 1.9 s: 1.5 m.
+    sight.look(4);
+    REQUIRE(sight.movers.discs().size() == 2);
+    CHECK(sight.movers.discs()[1].middle_m.isApprox(Vector2d(middle_m + Vector2d(1, 0))));
+    CHECK(sight.movers.discs()[1].radius_m == Approx(1.3));
+    // Gone from the map, it is believed to be there for 1.2 s after it got on.
+    map.flags.assign(map.flags.size(), 0);
+    for (int turn = 0; turn < 10; ++turn) sight.look();
+    CHECK(sight.movers.discs().size() == 1);
+    for (int turn = 0; turn < 3; ++turn) sight.look();
+    CHECK(sight.movers.empty());
+  }
 }
 
-/// After a second of maps, each made by `shape(seconds)`.
-template <class Shape>
-bool sees_mover(Shape&& shape) {
+TEST_CASE("what shows itself late, by turns or piece by piece stays in its place") {
   SmallMap map(64);
-  Movers movers(64);
-  for (int i = 0; i <= 10; ++i) {
-    shape(map, 0.1 * i);
-    movers.observe(map.view(i * kCycle_ns), {10, 12, 0}, 3);
+  Sight sight(map);
+  for (int turn = 0; turn < 40; ++turn) {
+    const bool shows = turn % 13 > 6;
+    map.flags[25 * 64 + 30] = shows ? kHard : 0;
+    map.flags[25 * 64 + 31] = shows && turn % 2 == 0 ? kHard : 0;
+    if (turn % 2 == 0)
+      map.flags[static_cast<std::size_t>(35 * 64 + 20 + turn / 2)] = kSoft;  // a row of grass
+    sight.look();
+    CAPTURE(turn);
+    REQUIRE(sight.movers.empty());
   }
-  return !movers.empty();
 }
 
-double to_outline_m(const SmallVehicle& vehicle, const Eigen::Vector2d& place_m) {
-  double least_m = 1e9;
-  for (int i = -20; i <= 20; ++i)
-    for (const double side : {-1.0, 1.0})
-      for (const Eigen::Vector2d& edge : {vehicle.outline(i / 20.0, side), vehicle.outline(side, i / 20.0)})
-        least_m = std::min(least_m, (edge - place_m).norm());
-  return least_m;
-}
-
-TEST_CASE("what walks is a mover, what stands or flickers is none") {
-  CHECK(sees_mover([](SmallMap& map, double time_s) { place_walker(map, 15, 10 + 1.4 * time_s); }));
-  CHECK_FALSE(sees_mover([](SmallMap& map, double) { place_walker(map, 15, 12); }));
-  CHECK_FALSE(sees_mover([](SmallMap& map, double time_s) {
-    place_walker(map, 15, 12 + (std::lround(10 * time_s) % 2 == 0 ? 0 : SmallMap::kCell_m));
-  }));
-  // A trunk that was hidden: there was no ground.
-  CHECK_FALSE(sees_mover([](SmallMap& map, double time_s) {
-    std::fill(map.flags.begin(), map.flags.end(), std::uint8_t{0});
-    map.hide(disc(15, 12, 1));
-    if (time_s > 0.8) map.obstacle(disc(15, 12, 0.3));
-  }));
-  CHECK_FALSE(sees_mover([](SmallMap& map, double time_s) { place_walker(map, 24, 10 + 1.4 * time_s); }));
-}
-
-TEST_CASE("the room that a mover can reach is closed, and opens again when he stands") {
+TEST_CASE("what stands and comes into sight, and an edge that flickers by a cell, do not move") {
   SmallMap map(64);
-  Movers movers(64);
-  int i = 0;
-  for (; i <= 10; ++i) {
-    place_walker(map, 15, 10 + 0.14 * i);
-    movers.observe(map.view(i * kCycle_ns), {10, 12, 0}, 3);
+  Sight sight(map);
+  const auto trunk = static_cast<std::size_t>(25 * 64 + 30);
+  const auto wall = static_cast<std::size_t>(30 * 64);
+  map.visibility[trunk] = 0;
+  for (int turn = 0; turn < 40; ++turn) {
+    if (turn == 10) map.flags[trunk] = kHard;
+    if (turn == 12) map.visibility[trunk] = static_cast<std::uint8_t>(Visibility::ground_seen);
+    for (std::size_t x = 0; x < 64; ++x) {
+      map.flags[wall + x] = kHard;
+      map.flags[wall - 64 + x] = (turn * 7 + x) % 3 == 0 ? kHard : 0;
+    }
+    sight.look();
+    CAPTURE(turn);
+    REQUIRE(sight.movers.empty());
   }
-  const planner::MapView closed = movers.close(map.view());
-  const planner::Cells cells = map.cells();
-  // Five metres away at 3 m/s he walks 2.3 m.
-  CHECK((closed.flags[cells.index_of(15, 13.2)] & kHard) != 0);
-  CHECK((closed.flags[cells.index_of(15, 14.6)] & kHard) == 0);
-  CHECK((map.flags[static_cast<std::size_t>(cells.index_of(15, 13.2))] & kHard) == 0);
-  for (; i <= 30; ++i) movers.observe(map.view(i * kCycle_ns), {10, 12, 0}, 3);
-  CHECK(movers.empty());
 }
 
-TEST_CASE("a walker who crosses is not hit, whenever he comes, and the vehicle goes on") {
-  const planner::PlannerConfig config;
-  for (double ahead_s = -1; ahead_s <= 1; ahead_s += 0.25) {
-    SmallMap map(128);
-    Loop loop(config, map, {5, 25, 0});
-    loop.planner.set_course({{44, 25}});
-    // At 4.5 m/s the vehicle is at x = 25 about then.
-    const double begin_y_m = 25 - 1.4 * (6.2 + ahead_s);
-    double nearest_m = 1e9, time_s = 0;
-    const bool arrives = loop.until(Mode::arrived, 60, [&](const Plan&) {
-      time_s += loop.period_s;
-      const Eigen::Vector2d walker(25, begin_y_m + 1.4 * time_s);
-      nearest_m = std::min(nearest_m, to_outline_m(loop.vehicle, walker));
-      place_walker(map, walker.x(), walker.y());
-    });
-    CAPTURE(ahead_s, nearest_m, time_s);
-    CHECK(arrives);
-    CHECK(nearest_m > kWalker_m);
+TEST_CASE("beside other things only what gets on twice, straight on, moves") {
+  SmallMap map(64);
+  map.where(box(6, 10.7, 20, 13), [&](std::size_t i) { map.flags[i] = kSoft; });
+  const std::vector<std::uint8_t> hedge = map.flags;
+  Sight sight(map);
+  int first = -1;
+  for (int turn = 0; turn < 30 && first < 0; ++turn) {
+    map.flags = hedge;
+    map.flags[static_cast<std::size_t>(25 * 64 + 22 + turn / 2)] = kSoft;  // 2 m/s, a metre beside it
+    sight.look();
+    if (!sight.movers.empty()) first = turn;
   }
+  CHECK(first > 12);  // alone it is turn 10
+  CHECK(first <= 18);
+}
+
+TEST_CASE("the rim of a hole that shows itself piece by piece does not move, nor does a long thing") {
+  for (const bool hole : {true, false}) {
+    SmallMap map(64);
+    Sight sight(map);
+    if (hole) map.where(box(14, 4, 14.8, 22), [&](std::size_t i) { map.flags[i] = kNegative; });
+    for (int turn = 0; turn < 40; ++turn) {
+      // 2 m/s along the hole; or a side of 6 m, 1.2 m of it in sight at once, each 0.3 s.
+      if (hole)
+        map.flags[static_cast<std::size_t>((10 + turn / 2) * 64 + 37)] = kHard;
+      else if (turn >= 10)
+        map.obstacle(box(12, 4.0 + 1.2 * ((turn - 10) / 3), 12.8, 5.2 + 1.2 * ((turn - 10) / 3)));
+      sight.look();
+      CAPTURE(hole, turn);
+      REQUIRE(sight.movers.empty());
+    }
+  }
+}
+
+TEST_CASE("the vehicle does not hit who crosses its way, and drives on when he is by") {
+  for (const std::uint8_t flag : {kHard, kSoft})
+    for (const double walks_mps : {1.0, 1.4, 1.8})
+      for (double early_s = -2.5; early_s <= 2.5; early_s += 0.5) {
+        SmallMap map(128);
+        Walker walker(map, flag);
+        Loop loop({}, map, {5, 25, 0});
+        loop.planner.set_course({{45, 25}});
+        // Nobody in its way, it is at x = 25 m after 3 s * 2.25 m/s and (20 - 6.75) m / 4.5 m/s: 5.9 s.
+        double time_s = 0, nearest_m = 1e9;
+        const auto step = [&] {
+          walker.stand_at({25, 25 + walks_mps * (time_s + early_s - 5.9)});
+          time_s += 0.1;
+        };
+        step();
+        const bool arrives = loop.until(Mode::arrived, 30, [&](const Plan&) {
+          step();
+          if (loop.vehicle.speed_mps() > 0.05) nearest_m = std::min(nearest_m, walker.away_m(loop.vehicle));
+        });
+        CAPTURE(int{flag}, walks_mps, early_s, nearest_m, time_s, loop.vehicle.pose().x_m);
+        CHECK(arrives);
+        CHECK(nearest_m > 0.1);
+        CHECK(time_s < 20);
+      }
 }
 
 }  // namespace
