@@ -32,6 +32,11 @@ MapView view_of(const ipc::LayersSample& layers) {
           layers.layer_u8(LayerId::flags).data(),    layers.layer_u8(LayerId::visibility).data()};
 }
 
+/// Nothing is wrong with a stand for that.
+bool stands_as_wanted(Reason reason) {
+  return reason == Reason::no_course || reason == Reason::near_goal || reason == Reason::mover;
+}
+
 std::string words(const char* format, double value) {
   char text[96];
   std::snprintf(text, sizeof text, format, value);

@@ -82,8 +82,7 @@ int drive_live(const services::VehicleConfig& config, const driving::CampaignOpt
   if (const auto drawn = witness.finish(config.planner.vehicle, row.result.outcome, driving::line_of(row));
       !drawn)
     return fail(ExitCode::unavailable, drawn.error());
-  std::printf("%s\n%s%s\n", driving::line_of(row).c_str(), driving::table_of({row}).c_str(),
-              result->figures.c_str());
+  std::printf("%s\n%s\n", driving::line_of(row).c_str(), result->figures.c_str());
   std::fflush(stdout);
   ::_exit(arrived ? 0 : 1);  // destructors of ports without a broker can hang
 }
