@@ -7,6 +7,7 @@
 #include "services/planner/closed_places.hpp"
 #include "services/planner/course.hpp"
 #include "services/planner/fan.hpp"
+#include "services/planner/kept_places.hpp"
 #include "services/planner/movers.hpp"
 #include "services/planner/planner.hpp"
 #include "services/planner/prediction.hpp"
@@ -58,6 +59,7 @@ class Planner::Impl {
   Fan fan_;
   SpeedProfile profile_;
   Prediction prediction_;
+  KeptPlaces kept_;
   SoftPlaces soft_;
   ClosedPlaces closed_;
   Movers movers_;

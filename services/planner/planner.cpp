@@ -37,6 +37,7 @@ Planner::Impl::Impl(const PlannerConfig& config, int n_xy)
       fan_(config),
       profile_(config, fan_.most_points()),
       prediction_(config),
+      kept_(n_xy),
       soft_(n_xy),
       closed_(n_xy),
       movers_(config.vehicle, n_xy),
@@ -87,6 +88,7 @@ void Planner::Impl::observe(const State& state, const Senses& senses) {
     must_stand_ = kStandCycles;
     retreat_.forget();
     closed_.clear();
+    kept_.clear();
     soft_.clear();
     movers_.clear();
     driven_.clear();
@@ -131,7 +133,7 @@ bool Planner::Impl::may_plan(const MapView* map, const Senses& senses) {
 }
 
 void Planner::Impl::drive(const MapView& seen, const Senses& senses) {
-  const MapView map = soft_.soften(seen, now_.pose.place());
+  const MapView map = soft_.soften(kept_.keep(seen, now_.pose.place()), now_.pose.place());
   movers_.observe(map, now_.pose.place(), now_.speed_mps);
   view_ = movers_.close(closed_.close(map));
   costs_.update(view_);

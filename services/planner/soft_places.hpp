@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "services/planner/map_view.hpp"
+#include "services/planner/carried_cells.hpp"
 
 namespace gvom::planner {
 
@@ -21,7 +21,7 @@ class SoftPlaces {
   explicit SoftPlaces(int n_xy);
 
   /// Forgets all: the map begins anew.
-  void clear();
+  void clear() { states_.clear(); }
   /// Each cycle with a map. @return the map with flags that hold that. It borrows the map's arrays, and is
   /// valid until the next call.
   MapView soften(const MapView& map, const Eigen::Vector2d& vehicle_m);
@@ -29,13 +29,9 @@ class SoftPlaces {
  private:
   static constexpr std::uint8_t kWasHard = 255;
 
-  /// The states of the last map by this one's columns.
-  void carry(const Cells& cells);
   [[nodiscard]] bool was_soft(int cell) const;
 
-  Cells cells_;
-  std::vector<std::uint8_t> states_;  ///< In how many maps it was SOFT, or kWasHard.
-  std::vector<std::uint8_t> before_;
+  CarriedCells states_;  ///< In how many maps it was SOFT, or kWasHard.
   std::vector<std::uint8_t> flags_;
 };
 

@@ -2,18 +2,6 @@
 # For tools/demo --drive: a simulated vehicle finds its own way, in real time through the real processes.
 # Of the demo: bin, logs, out, config, lidars, seed, length.
 
-await_words() {  # await_words NAME WORDS: it says them, or has ended
-  local i
-  for ((i = 0; i < 1200; ++i)); do
-    if grep -qs "$2" "$logs/$1.log"; then return; fi
-    kill -0 "${pid_of[$1]}" 2> /dev/null || break
-    sleep 0.05
-  done
-  local code=0
-  stop "$1" || code=$?
-  give_up "$1" "$code"
-}
-
 # It is the vehicle with its lidars: what it says of itself at the end is the truth.
 start_vehicle() {
   local lidar port=7502
@@ -21,7 +9,9 @@ start_vehicle() {
     config+=(--set "lidars.$lidar.source='ouster-udp:$((port++))?meta=$out/$lidar.json'")
   done
   start gvom-drive "$bin/gvom-drive" "${config[@]}" --real-time --seeds "$seed" --length "$length" --strip all --out "$out"
-  await_words gvom-drive 'stands at its start'
+  local code=0
+  await_words gvom-drive 'stands at its start' || code=$?
+  ((code == 0)) || give_up gvom-drive "$code"
 }
 
 demonstrate() {

@@ -79,21 +79,27 @@ list_lidars() {
   mapfile -t lidars < <(sed -n "/^lidars:/,\$ s/^  '\(.*\)':\$/\1/p" <<< "$printed")
 }
 
-start_broker() {
+await_words() {  # await_words NAME WORDS: until it says them; returns the exit code of one that ended first
   local i
-  start gvom-roudi "$bin/gvom-roudi" "${config[@]}"
-  for ((i = 0; i < 600; ++i)); do
-    if grep -qs 'is up after' "$logs/gvom-roudi.log"; then return; fi
-    kill -0 "${pid_of[gvom-roudi]}" 2> /dev/null || break
+  for ((i = 0; i < 1200; ++i)); do
+    if grep -qs "$2" "$logs/$1.log"; then return 0; fi
+    kill -0 "${pid_of[$1]}" 2> /dev/null || break
     sleep 0.05
   done
   local code=0
-  stop gvom-roudi || code=$?
-  if ((code == 75)); then
-    echo "demo: another broker runs on this machine; this leaves it alone. Stop it first." >&2
-  elif ((code == 69)); then
-    echo "demo: $shared_memory_advice" >&2
-  fi
+  stop "$1" || code=$?
+  return "$((code > 0 ? code : 70))"
+}
+
+start_broker() {
+  local code=0
+  start gvom-roudi "$bin/gvom-roudi" "${config[@]}"
+  await_words gvom-roudi 'is up after' || code=$?
+  case $code in
+    0) return ;;
+    75) echo "demo: another broker runs on this machine; this leaves it alone. Stop it first." >&2 ;;
+    69) echo "demo: $shared_memory_advice" >&2 ;;
+  esac
   give_up gvom-roudi "$code"
 }
 

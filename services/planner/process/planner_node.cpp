@@ -177,8 +177,7 @@ void PlannerNode::cycle() {
   ++counts_.cycles;
   if (plan.mode == Mode::stop) ++counts_.stops;
   health_.count_product();
-  const bool well =
-      plan.reason == Reason::no_course || (plan.mode != Mode::stop && plan.mode != Mode::gave_up);
+  const bool well = stands_as_wanted(plan.reason) || (plan.mode != Mode::stop && plan.mode != Mode::gave_up);
   health_.set_state(well ? ipc::HealthState::ok : ipc::HealthState::degraded, well ? "" : plan.why);
   tell(plan);
 }

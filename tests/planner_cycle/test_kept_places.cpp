@@ -1,0 +1,88 @@
+// What was lethal beside the vehicle stays so where nobody looks.
+#include "services/planner/kept_places.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "tests/planner_cycle/loop.hpp"
+
+namespace gvom::test {
+namespace {
+
+using planner::KeptPlaces;
+
+constexpr double kDitch_x_m = 15, kDitch_y_m = 10;
+
+/// A map of 25.6 m with a ditch across.
+struct Ground {
+  SmallMap map{64};
+  KeptPlaces kept{64};
+
+  void set(std::uint8_t flags, Visibility visibility) {
+    map.where(box(kDitch_x_m - 0.5, 0, kDitch_x_m + 0.5, 25), [&](std::size_t i) {
+      map.flags[i] = flags;
+      map.visibility[i] = static_cast<std::uint8_t>(visibility);
+    });
+  }
+  /// Of the ditch's middle, for a vehicle so far before it.
+  std::uint8_t look(double away_m) {
+    const planner::MapView view = kept.keep(map.view(), {kDitch_x_m - away_m, kDitch_y_m});
+    return view.flags[map.cells().index_of(kDitch_x_m, kDitch_y_m)];
+  }
+};
+
+TEST_CASE("a hole that is forgotten and assumed to be ground stays one beside the vehicle") {
+  Ground ground;
+  ground.set(kNegative, Visibility::unobserved);
+  CHECK(ground.look(3) == kNegative);
+  ground.set(0, Visibility::ground_assumed);
+  for (int i = 0; i < 1000; ++i) REQUIRE(ground.look(3) == kNegative);
+  ground.set(0, Visibility::free_only);  // rays high above it
+  CHECK(ground.look(2) == kNegative);
+  ground.set(0, Visibility::ground_seen);
+  CHECK(ground.look(2) == 0);
+  ground.set(0, Visibility::ground_assumed);
+  CHECK(ground.look(2) == 0);
+}
+
+TEST_CASE("what was hard from afar stays hard; what turned hard beside the vehicle only as long as it is") {
+  Ground ground;
+  ground.set(kHard, Visibility::ground_seen);
+  ground.look(8);
+  ground.set(0, Visibility::unobserved);
+  CHECK(ground.look(3) == kHard);
+  Ground anew;
+  anew.set(kHard, Visibility::ground_seen);
+  CHECK(anew.look(3) == kHard);
+  anew.set(0, Visibility::unobserved);
+  CHECK(anew.look(3) == 0);
+}
+
+TEST_CASE("from afar the map alone is right, and a map that begins anew knows nothing") {
+  Ground ground;
+  ground.set(kHard | kNegative, Visibility::unobserved);
+  ground.look(3);
+  ground.set(0, Visibility::unobserved);
+  CHECK(ground.look(6) == 0);
+  CHECK(ground.look(3) == 0);
+  ground.set(kNegative, Visibility::unobserved);
+  ground.look(3);
+  ground.set(0, Visibility::ground_assumed);
+  ground.kept.clear();
+  CHECK(ground.look(3) == 0);
+}
+
+TEST_CASE("it stays where it is when the map moves") {
+  Ground ground;
+  ground.set(kNegative, Visibility::unobserved);
+  ground.look(3);
+  SmallMap moved(64, 8 * SmallMap::kCell_m, -8 * SmallMap::kCell_m);
+  moved.where(disc(kDitch_x_m, kDitch_y_m, 9), [&](std::size_t i) {
+    moved.visibility[i] = static_cast<std::uint8_t>(Visibility::ground_assumed);
+  });
+  const planner::MapView view = ground.kept.keep(moved.view(), {kDitch_x_m - 3, kDitch_y_m});
+  CHECK(view.flags[moved.cells().index_of(kDitch_x_m, kDitch_y_m)] == kNegative);
+  CHECK(view.flags[moved.cells().index_of(kDitch_x_m + 1.2, kDitch_y_m)] == 0);
+}
+
+}  // namespace
+}  // namespace gvom::test
