@@ -145,10 +145,28 @@ TEST_CASE("distance and cost along a way are those of the map below it") {
   CHECK(figures.straight.cost[middle] == planner::Costmap::kMostCost);
 }
 
+TEST_CASE("a frame has the vehicle in its middle, and outlines of what is true where it is") {
+  const Film film = film_of(0);  // at (0, 0), heading +x; 10 pixels a metre
+  const std::vector<Edge> wall{{{5, 5}, {5, 9}}};
+  const std::vector<std::vector<Edge>> walkers{{{{-5, -9}, {-5, -5}}}};
+  const auto canvas = draw_strip(film.pick(8), {film.way(), {}, wall, walkers}, {}, {"world", "arrived"});
+  const auto at = [&](double x_m, double y_m) {
+    return canvas.at(kFirstLeft_px + static_cast<int>(200 + 10 * x_m),
+                     kFirstTop_px + static_cast<int>(200 - 10 * y_m));
+  };
+  CHECK(at(-0.4, 0) == kVehicleColour);
+  CHECK(at(0.2, 0.4) == kVehicleColour);
+  CHECK(at(-1.2, 0) != kVehicleColour);
+  CHECK(at(0.2, 1.0) != kVehicleColour);
+  CHECK(at(10, 7) == snapshot::kUnknown);  // the map is 4 m wide
+  CHECK(at(5, 7) != snapshot::kUnknown);
+  CHECK(at(-5, -7) != snapshot::kUnknown);
+}
+
 TEST_CASE("a strip has its frames in rows of four, and is a file") {
   const TemporaryFolder folder;
   const Film film = film_of(10);
-  const auto canvas = draw_strip(film.pick(6), film.way(), {{5, 0}}, {}, {"world", "arrived"});
+  const auto canvas = draw_strip(film.pick(6), {film.way(), {{5, 0}}, {}, {}}, {}, {"world", "arrived"});
   CHECK(canvas.width() > kFramesInRow * kFrame_px);
   CHECK(canvas.width() < (kFramesInRow + 1) * kFrame_px);
   CHECK(canvas.height() > 2 * kFrame_px);

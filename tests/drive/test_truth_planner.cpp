@@ -124,6 +124,26 @@ TEST_CASE("it finds the fastest way of random maps") {
   CHECK(none > 10);
 }
 
+TEST_CASE("obstacles have edges where they border on what is none, walkers a circle where they are") {
+  sim::WorldData data = level_world();
+  add(data, sim::Kind::walker, post(0, 0, 0.25, 1.8));
+  data.objects.back().track = {{0, -20, 0}, {10, -3, 0}};
+  const sim::World world(std::move(data));
+  sim::GroundTruth truth = drawn({"....", ".##.", ".#..", "...#"}, 1.0);
+  for (const std::uint8_t drivable : truth.drivable) truth.lethal.push_back(drivable == 0 ? 1 : 0);
+  truth.classes.assign(truth.drivable.size(), 0);
+  const TrueObstacles obstacles(world, truth);
+  const std::vector<Edge> edges = obstacles.edges();
+  CHECK(edges.size() == 8 + 4);  // an L of three columns, and one at the map's corner
+  for (const auto& [from, to] : edges) CHECK((to - from).norm() == Approx(1));
+  const std::vector<Edge> circle = obstacles.walker_edges(10);
+  REQUIRE(circle.size() >= 8);
+  for (const auto& [from, to] : circle) {
+    CHECK((from - Eigen::Vector2d(-3, 0)).norm() == Approx(0.25).margin(1e-6));
+    CHECK((to - from).norm() < 0.25);
+  }
+}
+
 TEST_CASE("distances are from the vehicle's outline to what is lethal, to half a column") {
   sim::WorldData data = level_world();
   add(data, sim::Kind::tree, post(5, 0, 0.2, 4));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <utility>
 #include <vector>
 
 #include "services/common/planner_config.hpp"
@@ -10,6 +11,9 @@
 #include "tools/sim/world.hpp"
 
 namespace gvom::driving {
+
+/// From corner to corner, metres in odom.
+using Edge = std::pair<Eigen::Vector2d, Eigen::Vector2d>;
 
 class TrueObstacles {
  public:
@@ -22,7 +26,14 @@ class TrueObstacles {
   [[nodiscard]] double nearest_m(const planner::VehicleLimits& vehicle, const planner::Pose2& place,
                                  double time_s) const;
 
+  /// Of the columns that are obstacles, where they border on others that are none.
+  [[nodiscard]] std::vector<Edge> edges() const;
+  /// Around each walker at that time.
+  [[nodiscard]] std::vector<Edge> walker_edges(double time_s) const;
+
  private:
+  [[nodiscard]] bool is_obstacle(int x, int y) const;
+
   const sim::World& world_;
   double cell_m_, min_x_m_, min_y_m_;
   int size_x_, size_y_;

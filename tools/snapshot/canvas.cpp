@@ -89,6 +89,15 @@ double Canvas::text_width(const std::string& words, const TextStyle& style) cons
   return extents.x_advance;
 }
 
+Rgb Canvas::at(int x, int y) const {
+  cairo_surface_flush(surface_.get());
+  const unsigned char* row = cairo_image_surface_get_data(surface_.get()) +
+                             static_cast<std::ptrdiff_t>(y) * cairo_image_surface_get_stride(surface_.get());
+  const std::uint32_t pixel = reinterpret_cast<const std::uint32_t*>(row)[x];
+  return {static_cast<std::uint8_t>(pixel >> 16), static_cast<std::uint8_t>(pixel >> 8),
+          static_cast<std::uint8_t>(pixel)};
+}
+
 tl::expected<void, std::string> Canvas::write_png(const std::string& path) const {
   const std::string partial = path + ".part";
   const cairo_status_t status = cairo_surface_write_to_png(surface_.get(), partial.c_str());

@@ -44,6 +44,9 @@ class Canvas {
   double text(Point start, const std::string& words, const TextStyle& style);
   [[nodiscard]] double text_width(const std::string& words, const TextStyle& style) const;
 
+  /// The colour of a pixel inside.
+  [[nodiscard]] Rgb at(int x, int y) const;
+
   /// Appears under `path` whole or not at all (a temporary file beside it, then a rename). The error names
   /// the path.
   [[nodiscard]] tl::expected<void, std::string> write_png(const std::string& path) const;

@@ -6,6 +6,19 @@ namespace gvom::driving {
 namespace {
 
 constexpr std::size_t kFrames = 8;
+constexpr double kTruth_m = 0.2;  // its columns
+
+Surroundings surroundings_of(const Film& film, const CourseWorld& course,
+                             const std::vector<const Frame*>& frames) {
+  const sim::World world(course.data);
+  const sim::GroundTruth truth = sim::sample_truth(world, {kTruth_m});
+  const TrueObstacles obstacles(world, truth);
+  Surroundings around{film.way(), course.waypoints_m, obstacles.edges(), {}};
+  for (const Frame* frame : frames)
+    around.walkers.push_back(
+        obstacles.walker_edges(1e-9 * static_cast<double>(frame->stamp_ns - sim::kStartNs)));
+  return around;
+}
 
 }  // namespace
 
@@ -36,7 +49,7 @@ tl::expected<void, std::string> Witness::finish(const planner::VehicleLimits& ve
   const bool failed = outcome != Outcome::arrived;
   if (strips_ == Strips::none || (strips_ == Strips::failed && !failed) || film_.empty()) return {};
   const auto frames = failed ? film_.pick_end(kFrames) : film_.pick(kFrames);
-  return draw_strip(frames, film_.way(), world_.waypoints_m, vehicle, {world_.name, words})
+  return draw_strip(frames, surroundings_of(film_, world_, frames), vehicle, {world_.name, words})
       .write_png(picture_);
 }
 

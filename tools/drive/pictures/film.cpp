@@ -28,6 +28,7 @@ void pick_from(const std::vector<const Frame*>& all, std::size_t count, std::vec
 Frame Film::frame_of(const Seen& seen, const planner::Plan& plan) const {
   const std::size_t n = static_cast<std::size_t>(seen.grid.size[0]) * seen.grid.size[1];
   Frame frame;
+  frame.stamp_ns = seen.state.stamp_ns;
   frame.time_s = 1e-9 * static_cast<double>(seen.state.stamp_ns - first_ns_);
   frame.place = flat(seen.state.T_odom_base);
   frame.speed_mps = seen.state.speed_mps;

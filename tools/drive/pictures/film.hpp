@@ -14,8 +14,9 @@ namespace gvom::driving {
 
 /// Plain copies. Arrays are of the grid's columns, [y][x] from its origin.
 struct Frame {
-  double time_s = 0;     ///< Since the first plan.
-  planner::Pose2 place;  ///< By the odometry, as all places here.
+  std::int64_t stamp_ns = 0;  ///< Of the state.
+  double time_s = 0;          ///< Since the first plan.
+  planner::Pose2 place;       ///< By the odometry, as all places here.
   double speed_mps = 0;
   Grid grid;
   std::vector<float> height, slope_x, slope_y;

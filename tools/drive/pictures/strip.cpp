@@ -14,9 +14,12 @@ using snapshot::Canvas;
 using snapshot::Point;
 using snapshot::Rgb;
 
-constexpr int kGap_px = 16, kHeader_px = 64, kCaption_px = 44, kLegend_px = 40;
+constexpr int kGap_px = kFirstLeft_px, kCaption_px = 44, kLegend_px = 40;
 constexpr double kWhySize_px = 12;
-constexpr Rgb kWay{30, 30, 36}, kPath{24, 96, 210}, kTrajectory{240, 120, 10}, kWaypoint{10, 130, 60};
+constexpr Rgb kWay{30, 30, 36}, kPath{24, 96, 210}, kTrajectory{240, 120, 10}, kWaypoint{10, 130, 60},
+    kObstacle{0, 0, 0};
+constexpr Rgb kGround{238, 226, 196};
+constexpr double kFaded = 0.6;  // remembered, towards white
 
 Rgb mixed(Rgb colour, Rgb with, double share) {
   const auto mix = [share](std::uint8_t a, std::uint8_t b) {
@@ -43,11 +46,11 @@ Rgb colour_of(const Frame& frame, std::size_t i) {
   } else if (flags & kSteep) {
     colour = snapshot::kSteepColour;
   } else if (std::isfinite(frame.height[i])) {
-    colour = mixed({0, 0, 0}, {238, 226, 196}, std::min(1.0, light_of(frame.slope_x[i], frame.slope_y[i])));
+    colour = mixed({0, 0, 0}, kGround, std::min(1.0, light_of(frame.slope_x[i], frame.slope_y[i])));
   } else {
     return colour;
   }
-  return is_remembered(frame.visibility[i]) ? mixed(colour, snapshot::kUnknown, 0.55) : colour;
+  return is_remembered(frame.visibility[i]) ? mixed(colour, snapshot::kPaper, kFaded) : colour;
 }
 
 /// Of one frame: pixels of places in odom.
@@ -112,7 +115,7 @@ void draw_vehicle(Canvas& canvas, const View& view, const planner::Pose2& place,
   const double half_m = 0.5 * vehicle.width_m;
   canvas.polygon({corner(vehicle.front_m, half_m), corner(vehicle.front_m, -half_m),
                   corner(-vehicle.rear_m, -half_m), corner(-vehicle.rear_m, half_m)},
-                 {255, 255, 255}, {0, 0, 0});
+                 kVehicleColour, {0, 0, 0});
   canvas.line(corner(0, 0), corner(vehicle.front_m, 0), 2, {0, 0, 0});
 }
 
@@ -132,33 +135,48 @@ void draw_why(Canvas& canvas, double left, double top, const std::string& why) {
   }
 }
 
-void draw_frame(Canvas& canvas, const View& view, const Frame& frame, const std::vector<Eigen::Vector2d>& way,
-                const std::vector<Eigen::Vector2d>& waypoints_m, const planner::VehicleLimits& vehicle) {
-  draw_map(canvas, view, frame);
-  draw_line(canvas, view, way, frame.driven, 2.5, kWay);
-  draw_line(canvas, view, frame.path, frame.path.size(), 2, kPath);
-  draw_line(canvas, view, frame.trajectory, frame.trajectory.size(), 3, kTrajectory);
-  for (const Eigen::Vector2d& waypoint : waypoints_m) draw_ring(canvas, view, waypoint);
-  draw_vehicle(canvas, view, frame.place, vehicle);
-  canvas.outline({double(view.left), double(view.top)}, kFrame_px, kFrame_px, snapshot::kFaintInk);
+void draw_edges(Canvas& canvas, const View& view, const std::vector<Edge>& edges) {
+  for (const auto& [from, to] : edges)
+    if (view.holds(from) && view.holds(to)) canvas.line(view.at(from), view.at(to), 1, kObstacle);
+}
+
+/// On a plate, so that it is read whatever is below.
+void draw_time(Canvas& canvas, const View& view, const Frame& frame) {
+  const snapshot::TextStyle style{14, snapshot::kInk, true};
   char when[64];
   std::snprintf(when, sizeof when, "%.1f s   %.1f m/s", frame.time_s,
                 std::abs(frame.speed_mps) < 0.1 ? 0.0 : frame.speed_mps);  // a stand, but for the noise
-  canvas.text({view.left + 6.0, view.top + 18.0}, when, {14, snapshot::kInk, true});
+  canvas.rectangle({double(view.left), double(view.top)}, canvas.text_width(when, style) + 14, 24,
+                   snapshot::kPaper);
+  canvas.text({view.left + 6.0, view.top + 17.0}, when, style);
+}
+
+void draw_frame(Canvas& canvas, const View& view, const Frame& frame, const Surroundings& around,
+                const planner::VehicleLimits& vehicle) {
+  draw_map(canvas, view, frame);
+  draw_edges(canvas, view, around.obstacles);
+  draw_line(canvas, view, around.way, frame.driven, 2.5, kWay);
+  draw_line(canvas, view, frame.path, frame.path.size(), 2, kPath);
+  draw_line(canvas, view, frame.trajectory, frame.trajectory.size(), 3, kTrajectory);
+  for (const Eigen::Vector2d& waypoint : around.waypoints_m) draw_ring(canvas, view, waypoint);
+  draw_vehicle(canvas, view, frame.place, vehicle);
+  canvas.outline({double(view.left), double(view.top)}, kFrame_px, kFrame_px, snapshot::kFaintInk);
+  draw_time(canvas, view, frame);
   draw_why(canvas, view.left, view.top + kFrame_px + 15, frame.why);
 }
 
 void draw_legend(Canvas& canvas, double left, double y) {
-  const std::pair<Rgb, const char*> entries[] = {{snapshot::kHardColour, "hard"},
-                                                 {snapshot::kSoftColour, "soft"},
-                                                 {snapshot::kNegativeColour, "negative"},
-                                                 {snapshot::kSteepColour, "steep"},
-                                                 {snapshot::kUnknown, "unknown"},
-                                                 {{226, 221, 208}, "remembered"},
-                                                 {kWay, "driven"},
-                                                 {kPath, "path"},
-                                                 {kTrajectory, "trajectory"},
-                                                 {kWaypoint, "waypoint"}};
+  const std::pair<Rgb, const char*> entries[] = {
+      {snapshot::kHardColour, "hard"},
+      {snapshot::kSoftColour, "soft"},
+      {snapshot::kNegativeColour, "negative"},
+      {snapshot::kSteepColour, "steep"},
+      {snapshot::kUnknown, "unknown"},
+      {mixed(kGround, snapshot::kPaper, kFaded), "remembered: faint"},
+      {kWay, "driven"},
+      {kPath, "path"},
+      {kTrajectory, "trajectory"},
+      {kWaypoint, "waypoint"}};
   for (const auto& [colour, label] : entries) {
     canvas.rectangle({left, y - 11}, 14, 14, colour);
     canvas.outline({left, y - 11}, 14, 14, snapshot::kFaintInk);
@@ -171,22 +189,22 @@ void draw_legend(Canvas& canvas, double left, double y) {
 
 }  // namespace
 
-Canvas draw_strip(const std::vector<const Frame*>& frames, const std::vector<Eigen::Vector2d>& way,
-                  const std::vector<Eigen::Vector2d>& waypoints_m, const planner::VehicleLimits& vehicle,
-                  const StripWords& words) {
+Canvas draw_strip(const std::vector<const Frame*>& frames, const Surroundings& around,
+                  const planner::VehicleLimits& vehicle, const StripWords& words) {
   const int rows = std::max<int>(1, (static_cast<int>(frames.size()) + kFramesInRow - 1) / kFramesInRow);
   const int width = kFramesInRow * (kFrame_px + kGap_px) + kGap_px;
   const int row_px = kFrame_px + kCaption_px + kGap_px / 2;
-  Canvas canvas(width, kHeader_px + rows * row_px + kLegend_px, snapshot::kPaper);
+  Canvas canvas(width, kFirstTop_px + rows * row_px + kLegend_px, snapshot::kPaper);
   canvas.text({kGap_px, 28}, words.title, {20, snapshot::kInk, true});
   canvas.text({kGap_px, 50}, words.subtitle, {14, snapshot::kFaintInk});
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const int column = static_cast<int>(i) % kFramesInRow, row = static_cast<int>(i) / kFramesInRow;
-    const View view{kGap_px + column * (kFrame_px + kGap_px), kHeader_px + row * row_px,
+    const View view{kGap_px + column * (kFrame_px + kGap_px), kFirstTop_px + row * row_px,
                     frames[i]->place.place()};
-    draw_frame(canvas, view, *frames[i], way, waypoints_m, vehicle);
+    draw_frame(canvas, view, *frames[i], around, vehicle);
+    if (i < around.walkers.size()) draw_edges(canvas, view, around.walkers[i]);
   }
-  draw_legend(canvas, kGap_px, kHeader_px + rows * row_px + 22);
+  draw_legend(canvas, kGap_px, kFirstTop_px + rows * row_px + 22);
   return canvas;
 }
 
