@@ -133,8 +133,8 @@ TEST_CASE("the map of a drive holds the newest that was seen, and nothing that i
 TEST_CASE("distance and cost along a way are those of the map below it") {
   const Field field({10.1, 5.1});  // its column's middle is at (10.25, 5.25)
   const planner::PlannerConfig config;
-  const CourseFigures figures =
-      compare_ways(field.map.view(), config, {{2, 11}, {18, 11}}, {{2, 5.25}, {10, 5.25}, {18, 5.25}});
+  const CourseFigures figures = compare_ways(JudgedMap(field.map.view(), config), {{2, 11}, {18, 11}},
+                                             {{2, 5.25}, {10, 5.25}, {18, 5.25}});
   CHECK(figures.driven.length_m() == Approx(16));
   CHECK(figures.straight.length_m() == Approx(16));
   CHECK(figures.straight.least_distance_m() == Approx(0).margin(1e-6));

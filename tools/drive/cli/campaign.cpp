@@ -59,6 +59,15 @@ std::string line_of(const Row& row) {
               result.false_stops, result.end.c_str());
 }
 
+std::string story_of(const Row& row) {
+  const SessionResult& result = row.result;
+  const std::string way =
+      result.way ? text("%.1f s for who knows the world", result.way->seconds) : "there is no way";
+  return text("%s after %.1f s (%s), %.1f m, up to %.1f m/s, nearest to an obstacle %.2f m, %d stops: %s",
+              words_of(result.outcome), result.log.seconds(), way.c_str(), result.log.driven_m,
+              result.top_speed_mps, result.log.nearest_m, result.false_stops, result.end.c_str());
+}
+
 std::string table_of(const std::vector<Row>& rows) {
   std::vector<Figures> all;
   for (const Row& row : rows) all.push_back(figures_of(row.world, row.seed, row.result));
@@ -82,7 +91,7 @@ tl::expected<std::vector<Row>, std::string> run_campaign(const services::Vehicle
     auto result = run_session(*world, config, session_options(options, seed), witness.onlooker());
     if (!result) return static_cast<void>(row = tl::unexpected(result.error()));
     row = Row{world->name, seed, std::move(*result)};
-    if (auto drawn = witness.finish(config.planner.vehicle, row->result.outcome, line_of(*row)); !drawn)
+    if (auto drawn = witness.finish(config.planner.vehicle, row->result.outcome, story_of(*row)); !drawn)
       return static_cast<void>(row = tl::unexpected(drawn.error()));
     const std::lock_guard lock(mutex);
     done(*row);

@@ -46,6 +46,9 @@ struct Row {
 /// One line: what came of it, how long it took, what a planner that knows the world would take.
 std::string line_of(const Row& row);
 
+/// The same as a sentence.
+std::string story_of(const Row& row);
+
 /// Sums over all: arrived of those with a way, mishaps by kind, times, speeds, clearances, cycles.
 std::string table_of(const std::vector<Row>& rows);
 

@@ -1,9 +1,10 @@
 #include "tools/drive/cli/course_run.hpp"
 
+#include <cstdio>
 #include <fstream>
 #include <optional>
 
-#include "tools/drive/pictures/course_figure.hpp"
+#include "tools/drive/pictures/course_map.hpp"
 
 namespace gvom::driving {
 namespace {
@@ -31,40 +32,80 @@ tl::expected<void, std::string> write_text(const std::string& path, const std::s
   return {};
 }
 
+/// Of a number that may not be there.
+std::string json_number(const std::optional<double>& value) {
+  char text[32] = "null";
+  if (value) std::snprintf(text, sizeof text, "%.2f", *value);
+  return text;
+}
+
+struct Maps {
+  CourseMap whole;
+  std::optional<CourseMap> at_start;
+
+  void add(const Seen& seen) {
+    whole.add(seen);
+    const double time_s = 1e-9 * static_cast<double>(seen.state.stamp_ns - sim::kStartNs);
+    if (!at_start && time_s >= kStart_s) at_start = whole;
+  }
+};
+
+tl::expected<void, std::string> write_pictures(const CourseRun& run, const std::string& stem,
+                                               const JudgedMap& whole, const JudgedMap& at_start) {
+  const PictureWords words{run.row.world, story_of(run.row)};
+  return draw_course(words, whole, run.figures)
+      .write_png(stem + ".png")
+      .and_then(
+          [&] { return draw_slopes(words, at_start, whole, run.figures).write_png(stem + "-slopes.png"); })
+      .and_then([&] { return write_text(stem + ".json", json_of(run)); });
+}
+
 }  // namespace
 
 tl::expected<CourseRun, std::string> run_course(const services::VehicleConfig& config,
-                                                const CampaignOptions& options) {
+                                                const CampaignOptions& options, const Onlooker& onlooker) {
   const std::uint64_t seed = options.first_seed;
   const auto world = world_of(options, seed);
   if (!world) return tl::unexpected(world.error());
   Witness witness(options.folder, *world, seed, Strips::all);
   const Onlooker witness_looks = witness.onlooker();
-  CourseMap map = map_of(*world, config.mapper.map.resolution_xy_m);
-  std::optional<CourseMap> at_start;
-  auto result = run_session(
-      *world, config, session_options(options, seed), [&](const Seen& seen, const planner::Plan& plan) {
-        witness_looks(seen, plan);
-        map.add(seen);
-        const double time_s = 1e-9 * static_cast<double>(seen.state.stamp_ns - sim::kStartNs);
-        if (!at_start && time_s >= kStart_s) at_start = map;
-      });
+  Maps maps{map_of(*world, config.mapper.map.resolution_xy_m), {}};
+  auto result = run_session(*world, config, session_options(options, seed),
+                            [&](const Seen& seen, const planner::Plan& plan) {
+                              if (witness_looks) witness_looks(seen, plan);
+                              if (onlooker) onlooker(seen, plan);
+                              maps.add(seen);
+                            });
   if (!result) return tl::unexpected(result.error());
-  CourseRun run{{world->name, seed, std::move(*result)}, ""};
   std::vector<Eigen::Vector2d> straight{world->start.place()};
   straight.insert(straight.end(), world->waypoints_m.begin(), world->waypoints_m.end());
-  const CourseFigures figures =
-      compare_ways(map.view(), config.planner, driven_way(run.row.result.log), straight);
-  run.figures = text_of(figures);
-  const std::string words = line_of(run.row), stem = options.folder + "/" + world->name;
-  return witness.finish(config.planner.vehicle, run.row.result.outcome, words)
-      .and_then([&] { return draw_course(words, map.view(), figures).write_png(stem + ".png"); })
-      .and_then([&] {
-        return draw_slopes(words, at_start.value_or(map).view(), map.view(), figures)
-            .write_png(stem + "-slopes.png");
-      })
-      .and_then([&] { return write_text(stem + ".json", json_of(figures)); })
+  const JudgedMap whole(maps.whole.view(), config.planner);
+  CourseRun run{{world->name, seed, std::move(*result)}, {}};
+  run.figures = compare_ways(whole, driven_way(run.row.result.log), straight);
+  if (options.folder.empty()) return run;
+  const CourseMap& start = maps.at_start ? *maps.at_start : maps.whole;
+  const JudgedMap at_start(start.view(), config.planner);
+  return witness.finish(config.planner.vehicle, run.row.result.outcome, story_of(run.row))
+      .and_then([&] { return write_pictures(run, options.folder + "/" + world->name, whole, at_start); })
       .map([&] { return std::move(run); });
+}
+
+std::string text_of(const CourseRun& run) {
+  return run.row.world + ": " + story_of(run.row) + "\n" + text_of(run.figures);
+}
+
+std::string json_of(const CourseRun& run) {
+  const SessionResult& result = run.row.result;
+  std::optional<double> way_s, way_m;
+  if (result.way) way_s = result.way->seconds, way_m = result.way->length_m;
+  return "{\"course\": \"" + run.row.world + "\", \"seed\": " + std::to_string(run.row.seed) +
+         ", \"outcome\": \"" + words_of(result.outcome) +
+         "\", \"seconds\": " + json_number(result.log.seconds()) +
+         ", \"truth_planner\": {\"seconds\": " + json_number(way_s) +
+         ", \"length_m\": " + json_number(way_m) +
+         "}, \"true_obstacles\": {\"least_distance_m\": " + json_number(result.log.nearest_m) +
+         ", \"mean_distance_m\": " + json_number(result.log.mean_nearest_m()) + "}, " + json_of(run.figures) +
+         "}\n";
 }
 
 }  // namespace gvom::driving

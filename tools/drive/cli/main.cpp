@@ -62,7 +62,7 @@ int drive_all(const services::VehicleConfig& config, driving::CampaignOptions op
 int drive_course(const services::VehicleConfig& config, const driving::CampaignOptions& options) {
   const auto run = driving::run_course(config, options);
   if (!run) return fail(ExitCode::unavailable, run.error());
-  std::printf("%s\n%s", driving::line_of(run->row).c_str(), run->figures.c_str());
+  std::fputs(driving::text_of(*run).c_str(), stdout);
   return run->row.result.outcome == driving::Outcome::arrived ? 0 : 1;
 }
 
@@ -79,7 +79,7 @@ int drive_live(const services::VehicleConfig& config, const driving::CampaignOpt
   if (!result) return to_int(result.error());
   const bool arrived = result->session.outcome == driving::Outcome::arrived;
   const driving::Row row{world->name, seed, std::move(result->session)};
-  if (const auto drawn = witness.finish(config.planner.vehicle, row.result.outcome, driving::line_of(row));
+  if (const auto drawn = witness.finish(config.planner.vehicle, row.result.outcome, driving::story_of(row));
       !drawn)
     return fail(ExitCode::unavailable, drawn.error());
   std::printf("%s\n%s\n", driving::line_of(row).c_str(), result->figures.c_str());

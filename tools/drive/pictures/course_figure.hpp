@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tools/drive/pictures/course_map.hpp"
+#include "tools/drive/pictures/picture_words.hpp"
 #include "tools/drive/pictures/way_figures.hpp"
 #include "tools/snapshot/canvas.hpp"
 
@@ -17,19 +18,27 @@ struct CourseFigures {
   WayFigures driven, straight;              ///< On the same map: that of the whole drive.
 };
 
-/// By the planner's costs over the map of the whole drive.
-CourseFigures compare_ways(const planner::MapView& map, const planner::PlannerConfig& config,
-                           std::vector<Eigen::Vector2d> driven_m, std::vector<Eigen::Vector2d> straight_m);
+/// A map, borrowed, and what it costs the planner to drive there.
+struct JudgedMap {
+  JudgedMap(const planner::MapView& of, const planner::PlannerConfig& config);
+
+  planner::MapView map;
+  planner::Costmap costs;
+};
+
+/// By the costs of the map of the whole drive.
+CourseFigures compare_ways(const JudgedMap& judged, std::vector<Eigen::Vector2d> driven_m,
+                           std::vector<Eigen::Vector2d> straight_m);
 
 /// The map's roughness with both ways, then distance to the nearest obstacle and cost along both.
-snapshot::Canvas draw_course(const std::string& title, const planner::MapView& map,
+snapshot::Canvas draw_course(const PictureWords& words, const JudgedMap& judged,
                              const CourseFigures& figures);
 
 /// The slope as it was known at the start and at the end, with the driven way.
-snapshot::Canvas draw_slopes(const std::string& title, const planner::MapView& at_start,
-                             const planner::MapView& at_end, const CourseFigures& figures);
+snapshot::Canvas draw_slopes(const PictureWords& words, const JudgedMap& at_start, const JudgedMap& at_end,
+                             const CourseFigures& figures);
 
-/// In words, a line for each figure; and the same as JSON.
+/// A line for each figure, and the same as members of a JSON object.
 std::string text_of(const CourseFigures& figures);
 std::string json_of(const CourseFigures& figures);
 

@@ -35,16 +35,17 @@ void draw_polyline(Canvas& canvas, const std::vector<Point>& points, double thic
   }
 }
 
-void draw_plot(Canvas& canvas, const PlotArea& area, const std::string& title, const std::string& x_label,
-               const std::vector<Curve>& curves) {
+void draw_plot(Canvas& canvas, const PlotArea& area, const Axes& axes, const std::vector<Curve>& curves) {
   double longest = 0, highest = 0;
   for (const Curve& curve : curves) {
     longest = std::max(longest, curve.step * static_cast<double>(curve.values.size()));
     for (const double value : curve.values) highest = std::max(highest, value);
   }
-  const snapshot::Scale across{0, std::max(longest, 1e-9)}, up{0, std::max(1.05 * highest, 1e-9)};
+  const snapshot::Scale across{0, std::max(longest, 1e-9)},
+      up{axes.logarithmic ? 1.0 : 0.0, std::max(1.05 * highest, axes.logarithmic ? 2.0 : 1e-9),
+         axes.logarithmic};
   const double bottom = area.top + area.height;
-  canvas.text({area.left, area.top - 9}, title, {14, snapshot::kInk, true});
+  canvas.text({area.left, area.top - 9}, axes.title, {14, snapshot::kInk, true});
   for (const snapshot::Tick& tick : snapshot::ticks(up, 5)) {
     const double y = bottom - area.height * up.fraction(tick.value);
     canvas.line({area.left, y}, {area.left + area.width, y}, 1, {228, 230, 234});
@@ -57,8 +58,8 @@ void draw_plot(Canvas& canvas, const PlotArea& area, const std::string& title, c
     const double width = canvas.text_width(tick.label, {12, snapshot::kInk});
     canvas.text({x - 0.5 * width, bottom + 19}, tick.label, {12, snapshot::kInk});
   }
-  canvas.text({area.left + area.width - canvas.text_width(x_label, {12, snapshot::kInk}), bottom + 36},
-              x_label, {12, snapshot::kFaintInk});
+  canvas.text({area.left + area.width - canvas.text_width(axes.x_label, {12, snapshot::kInk}), bottom + 36},
+              axes.x_label, {12, snapshot::kFaintInk});
   double label_x = area.left + area.width;
   for (const Curve& curve : curves) {
     std::vector<Point> points;

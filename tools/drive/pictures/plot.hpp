@@ -16,14 +16,19 @@ struct Curve {
   std::vector<double> values;
 };
 
+struct Axes {
+  std::string title, x_label;
+  bool logarithmic = false;  ///< The values, that are then 1 or more; else from 0 on.
+};
+
 /// A rectangle of pixels with its axes' numbers left of it and below.
 struct PlotArea {
   double left, top, width, height;
 };
 
-/// From 0 on, both axes; a title above, the curves' labels in the upper right corner, `x_label` below.
-void draw_plot(snapshot::Canvas& canvas, const PlotArea& area, const std::string& title,
-               const std::string& x_label, const std::vector<Curve>& curves);
+/// x from 0 on; the title above, the curves' labels in the upper right corner, `x_label` below.
+void draw_plot(snapshot::Canvas& canvas, const PlotArea& area, const Axes& axes,
+               const std::vector<Curve>& curves);
 
 /// A line that may be dashed, through all points.
 void draw_polyline(snapshot::Canvas& canvas, const std::vector<snapshot::Point>& points, double thickness,

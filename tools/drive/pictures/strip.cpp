@@ -176,7 +176,8 @@ void draw_legend(Canvas& canvas, double left, double y) {
       {kWay, "driven"},
       {kPath, "path"},
       {kTrajectory, "trajectory"},
-      {kWaypoint, "waypoint"}};
+      {kWaypoint, "waypoint"},
+      {snapshot::kPaper, "outline: true obstacle"}};
   for (const auto& [colour, label] : entries) {
     canvas.rectangle({left, y - 11}, 14, 14, colour);
     canvas.outline({left, y - 11}, 14, 14, snapshot::kFaintInk);
@@ -190,7 +191,7 @@ void draw_legend(Canvas& canvas, double left, double y) {
 }  // namespace
 
 Canvas draw_strip(const std::vector<const Frame*>& frames, const Surroundings& around,
-                  const planner::VehicleLimits& vehicle, const StripWords& words) {
+                  const planner::VehicleLimits& vehicle, const PictureWords& words) {
   const int rows = std::max<int>(1, (static_cast<int>(frames.size()) + kFramesInRow - 1) / kFramesInRow);
   const int width = kFramesInRow * (kFrame_px + kGap_px) + kGap_px;
   const int row_px = kFrame_px + kCaption_px + kGap_px / 2;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tools/drive/pictures/film.hpp"
+#include "tools/drive/pictures/picture_words.hpp"
 #include "tools/drive/true_obstacles.hpp"
 #include "tools/snapshot/canvas.hpp"
 
@@ -24,15 +25,10 @@ struct Surroundings {
   std::vector<std::vector<Edge>> walkers;  ///< The same of what moves, for each frame; may be empty.
 };
 
-struct StripWords {
-  std::string title;     ///< What was driven.
-  std::string subtitle;  ///< What came of it.
-};
-
 /// Frames in rows from the left, each with its time, speed and what the planner said: the map as it was, the
 /// way driven, the path (blue), the chosen trajectory (orange), waypoints (rings), true obstacles (outlines),
 /// the vehicle.
 snapshot::Canvas draw_strip(const std::vector<const Frame*>& frames, const Surroundings& around,
-                            const planner::VehicleLimits& vehicle, const StripWords& words);
+                            const planner::VehicleLimits& vehicle, const PictureWords& words);
 
 }  // namespace gvom::driving
