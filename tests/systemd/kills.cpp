@@ -63,7 +63,7 @@ class Campaign {
 
   bool run() {
     const std::size_t kills = task_.stop_s > 0 ? 0 : task_.rounds * task_.processes.size();
-    const bool can_tell = kills > kStrayChunks;  // a chunk lost with each
+    const bool can_tell = kills > kStrayChunks;                       // a chunk lost with each
     wait("all is well at first", [&] { return all_well_since(0); });  // the window is full, too
     const auto before = can_tell ? pools() : std::vector<std::uint32_t>{};
     for (int round = 0; round < task_.rounds; ++round)
