@@ -7,6 +7,7 @@
 
 #include "core/format/grid.hpp"
 #include "core/format/layers.hpp"
+#include "core/pose.hpp"
 
 namespace gvom::planner {
 
@@ -19,6 +20,12 @@ struct Pose2 {
   [[nodiscard]] Eigen::Vector2d place() const { return {x_m, y_m}; }
   [[nodiscard]] Eigen::Vector2d forward() const { return {std::cos(yaw_rad), std::sin(yaw_rad)}; }
 };
+
+/// Seen from above.
+inline Pose2 flat(const Pose& pose) {
+  const Eigen::Vector3d forward = pose.rotation * Eigen::Vector3d::UnitX();
+  return {pose.translation_m.x(), pose.translation_m.y(), std::atan2(forward.y(), forward.x())};
+}
 
 /// The cells of a map by place: `n` * `n` of them, [y][x].
 struct Cells {

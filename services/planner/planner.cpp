@@ -12,11 +12,6 @@ namespace {
 constexpr double kStands_mps = 0.1;
 constexpr int kStandCycles = 3;  // what a jump of the odometry says of the speed is nothing at first
 
-Pose2 flat(const Pose& pose) {
-  const Eigen::Vector3d forward = pose.rotation * Eigen::Vector3d::UnitX();
-  return {pose.translation_m.x(), pose.translation_m.y(), std::atan2(forward.y(), forward.x())};
-}
-
 }  // namespace
 
 Planner::Planner(const PlannerConfig& config, int n_xy) : impl_(std::make_unique<Impl>(config, n_xy)) {}

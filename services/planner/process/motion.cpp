@@ -9,11 +9,6 @@ namespace {
 constexpr double kJump_m = 0.5;      // less is no jump, however quick
 constexpr double kCurves_mps = 0.2;  // slower, curvature is noise
 
-double yaw_of(const Eigen::Quaterniond& q) {
-  const Eigen::Vector3d forward = q * Eigen::Vector3d::UnitX();
-  return std::atan2(forward.y(), forward.x());
-}
-
 bool is_pose(const Pose& pose) {
   return pose.translation_m.allFinite() && pose.rotation.coeffs().allFinite() &&
          std::abs(pose.rotation.norm() - 1.0) < 0.01;
@@ -56,7 +51,7 @@ std::optional<State> MotionEstimate::state() const {
   if (back == 0) return state;
   const StampedPose& then = at(back);
   const double passed_s = 1e-9 * static_cast<double>(now.stamp_ns - then.stamp_ns);
-  const double yaw = yaw_of(now.T_odom_base.rotation), turned = yaw - yaw_of(then.T_odom_base.rotation);
+  const double yaw = flat(now.T_odom_base).yaw_rad, turned = yaw - flat(then.T_odom_base).yaw_rad;
   const double turned_rad = std::remainder(turned, 2 * M_PI);
   const Eigen::Vector2d way = (now.T_odom_base.translation_m - then.T_odom_base.translation_m).head<2>();
   const double middle = yaw - 0.5 * turned_rad;

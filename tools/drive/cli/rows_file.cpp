@@ -6,6 +6,8 @@
 #include <iterator>
 #include <sstream>
 
+#include "services/common/text_hash.hpp"
+
 namespace gvom::driving {
 namespace {
 
@@ -37,13 +39,10 @@ bool take(const std::string& line, const std::string& begin, std::string& rest) 
 }  // namespace
 
 std::string hash_of_file(const std::string& path) {
-  std::uint64_t hash = 14695981039346656037ULL;
-  for (const char byte : bytes_of(path)) {
-    hash ^= static_cast<std::uint8_t>(byte);
-    hash *= 1099511628211ULL;
-  }
+  services::TextHash hash;
+  hash.add(bytes_of(path));
   char digits[17];
-  std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash));
+  std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash.value()));
   return digits;
 }
 

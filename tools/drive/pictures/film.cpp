@@ -6,11 +6,6 @@
 namespace gvom::driving {
 namespace {
 
-planner::Pose2 flat(const Pose& pose) {
-  const Eigen::Vector3d forward = pose.rotation * Eigen::Vector3d::UnitX();
-  return {pose.translation_m.x(), pose.translation_m.y(), std::atan2(forward.y(), forward.x())};
-}
-
 template <class Value>
 std::vector<Value> copy_of(const Value* values, std::size_t count) {
   return {values, values + count};
@@ -30,7 +25,7 @@ Frame Film::frame_of(const Seen& seen, const planner::Plan& plan) const {
   Frame frame;
   frame.stamp_ns = seen.state.stamp_ns;
   frame.time_s = 1e-9 * static_cast<double>(seen.state.stamp_ns - first_ns_);
-  frame.place = flat(seen.state.T_odom_base);
+  frame.place = planner::flat(seen.state.T_odom_base);
   frame.speed_mps = seen.state.speed_mps;
   frame.grid = seen.grid;
   frame.height = copy_of(seen.layers.height, n);
