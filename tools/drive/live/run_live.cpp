@@ -1,6 +1,7 @@
 #include "tools/drive/live/run_live.hpp"
 
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
@@ -44,6 +45,10 @@ tl::expected<LiveResult, ExitCode> run_live(const CourseWorld& course, const ser
   const double most_s = most_seconds(options, way);
   while (lifecycle.sleep_until((*session)->next()) && runtime->broker_alive() &&
          (*session)->step(most_s, onlooker)) {
+  }
+  if (!runtime->broker_alive()) {
+    spdlog::error("the broker is gone: {}", (*session)->figures());
+    ::_exit(to_int(ExitCode::try_again));  // destructors of ports without a broker can hang
   }
   LiveResult result{(*session)->result(), (*session)->figures()};
   result.session.way = way;
