@@ -46,6 +46,8 @@ class Planner::Impl {
   void watch_progress();
   [[nodiscard]] FanInput fan_input(const Predicted& at) const;
   [[nodiscard]] bool lead_is_free() const;
+  /// Within the tolerance of the last waypoint.
+  [[nodiscard]] bool at_end() const;
   [[nodiscard]] bool stands() const;
   /// Along what it drove last: that was free.
   void stop(Reason reason, Mode mode = Mode::stop);

@@ -22,6 +22,9 @@ constexpr double kLastIsCheaper = 0.97;  // hysteresis
 constexpr double kHolds_m[] = {1.5, 3};
 constexpr double kSlow_mps = 1.5;
 constexpr double kSteeringBelow_mps = 1;  // below it, steering is simulated as at it
+constexpr double kAim = 0.75;             // of the tolerance: who aims at its rim misses it by a slip
+constexpr double kSlips = 1.15;           // wider than the tightest turn may one be that it is told to drive
+constexpr double kPerMetreWithin = 4;     // of the way out of a turning circle with the last waypoint in it
 
 /// Bilinear between those of the four nearest cells that a way is known from; +infinity: none.
 double cost_at(const Cells& cells, const float* cost, const Vector2d& place_m) {
@@ -203,7 +206,7 @@ bool Fan::append(const FanInput& input, const TrajectoryPoint& at, double speed_
 
 bool Fan::arrives(const FanInput& input, const Pose2& pose) {
   const double away_m = (pose.place() - input.waypoint_m).norm();
-  if (away_m > config_.goal_tolerance_m) return false;
+  if (away_m > kAim * config_.goal_tolerance_m) return false;
   now_.reached = true;
   if (input.next_m != nullptr) return false;
   const bool nears = (input.waypoint_m - pose.place()).dot(pose.forward()) > 0;
@@ -227,7 +230,14 @@ double Fan::to_go(const FanInput& input, const Pose2& from, bool reached) const 
 double Fan::turning(const FanInput& input, const Pose2& from, bool reached) const {
   const float* cost_to_go = reached ? input.next_cost_to_go : input.cost_to_go;
   if (cost_to_go == nullptr) return 0;
-  return turn_rad(input.costs->cells(), cost_to_go, from) / config_.vehicle.max_curvature_per_m;
+  const double radius_m = 1 / config_.vehicle.max_curvature_per_m;
+  const double turn_m = turn_rad(input.costs->cells(), cost_to_go, from) * radius_m;
+  if (reached || input.next_m != nullptr) return turn_m;
+  const double around_m = kSlips * radius_m, aim_m = kAim * config_.goal_tolerance_m;
+  const Vector2d left_m = around_m * Vector2d(-std::sin(from.yaw_rad), std::cos(from.yaw_rad));
+  const Vector2d to_goal_m = input.waypoint_m - from.place();
+  const double nearest_m = std::min((to_goal_m - left_m).norm(), (to_goal_m + left_m).norm());
+  return turn_m + kPerMetreWithin * std::max(0.0, around_m - aim_m - nearest_m);
 }
 
 double Fan::stop_cost(const FanInput& input, double length_m) const {

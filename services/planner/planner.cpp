@@ -102,7 +102,7 @@ bool Planner::Impl::may_plan(const MapView* map, const Senses& senses) {
   } else if (gave_up_) {
     stop(Reason::no_progress, Mode::gave_up);
     say(plan_.why, "gave up: in %.0f s it came no nearer to waypoint %zu", config_.give_up_s, plan_.waypoint);
-  } else if (arrived_ || (course_.is_last() && course_.at_goal(now_.pose.place()) && stands())) {
+  } else if (arrived_ || (at_end() && stands())) {
     arrived_ = true;
     stop(Reason::near_goal, Mode::arrived);
     say(plan_.why, "arrived: %.1f m from the last waypoint", (now_.pose.place() - course_.waypoint()).norm());
@@ -122,9 +122,16 @@ bool Planner::Impl::may_plan(const MapView* map, const Senses& senses) {
     say(plan_.why, "stops: odometry jumped; it goes on from a stand");
   } else {
     jump_ns_.reset();
-    return true;
+    if (!at_end() || (course_.goal() - now_.pose.place()).dot(now_.pose.forward()) > 0) return true;
+    stop(Reason::near_goal);
+    say(plan_.why, "stops: the goal is %.1f m away, and it comes no nearer",
+        (now_.pose.place() - course_.goal()).norm());
   }
   return false;
+}
+
+bool Planner::Impl::at_end() const {
+  return course_.is_last() && course_.at_goal(now_.pose.place());
 }
 
 void Planner::Impl::drive(const MapView& seen, const Senses& senses) {
