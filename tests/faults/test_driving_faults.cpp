@@ -73,3 +73,17 @@ TEST_CASE("faults at 4.5 m/s: each ends at a stand in time, nothing is touched, 
   CHECK(lab.board->nearest_m > 0.3);
   lab.stop();
 }
+
+TEST_CASE("a simulated vehicle whose broker is killed says so and is to be started again") {
+  const TemporaryFolder folder;
+  const std::string port = std::to_string(free_port());
+  Graph graph({GVOM_SOURCE_DIR "/config/vehicles/warthog.yaml",
+               {"top"},
+               folder.path(),
+               {"lidars.top.source=ouster-udp:" + port + "?meta=campaign-1.json"}});
+  const auto vehicle = graph.start("gvom-drive", {"--real-time", "--length", "60", "--out", folder.path()});
+  REQUIRE(vehicle->says("the vehicle stands at its start"));
+  graph.roudi().kill();
+  CHECK(vehicle->wait(10s) == 75);
+  CHECK(vehicle->says("the broker is gone", 0s));
+}
