@@ -119,7 +119,7 @@ class Scan {
   }
 
   void damaged(const char* what, std::uint64_t from, const std::string& reason) {
-    ++index_.damaged;
+    if (++index_.damaged > kMostTold) return;
     index_.warnings.push_back(path_ + ": " + what + " at " + at(from) + ": " + reason + ": left out");
   }
 

@@ -15,6 +15,9 @@
 
 namespace gvom::mcap {
 
+/// Damaged pieces that are named; more are counted only.
+inline constexpr std::uint64_t kMostTold = 20;
+
 struct Channel {
   std::uint16_t id = 0;
   std::string topic;

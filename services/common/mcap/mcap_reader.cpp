@@ -10,11 +10,11 @@ constexpr std::uint64_t kMostOpenBytes = 1 << 30;
 
 }  // namespace
 
-tl::expected<McapReader, std::string> McapReader::open(const std::string& path) {
+tl::expected<McapReader, std::string> McapReader::open(const std::string& path, const std::string& name) {
   auto file = RandomFile::open(path);
   if (!file) return tl::unexpected(file.error());
-  McapReader reader(path, std::move(*file));
-  auto index = make_index(reader.file_, path, reader.unpacker_);
+  McapReader reader(name.empty() ? path : name, std::move(*file));
+  auto index = make_index(reader.file_, reader.name_, reader.unpacker_);
   if (!index) return tl::unexpected(index.error());
   reader.index_ = std::move(*index);
   return reader;
@@ -93,7 +93,7 @@ tl::expected<void, std::string> McapReader::open_block(std::size_t index) {
   open_bytes_ += open->records.size();
   if (open_bytes_ > kMostOpenBytes) {
     return tl::unexpected(
-        path_ + ": chunk at byte " + std::to_string(block.offset) +
+        name_ + ": chunk at byte " + std::to_string(block.offset) +
         ": its messages and those of others before it are of the same times, over 1 GiB of them: "
         "sort the file by time first");
   }
@@ -149,8 +149,8 @@ void McapReader::note_entries(const Block& block, OpenBlock& open) {
 /// Once, however often the file is read.
 void McapReader::damaged(const Block& block, const std::string& reason) {
   if (!told_.insert(block.offset).second) return;
-  ++index_.damaged;
-  index_.warnings.push_back(path_ + ": chunk at byte " + std::to_string(block.offset) + ": " + reason +
+  if (++index_.damaged > kMostTold) return;
+  index_.warnings.push_back(name_ + ": chunk at byte " + std::to_string(block.offset) + ": " + reason +
                             ": left out");
 }
 

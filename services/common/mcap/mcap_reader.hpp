@@ -27,8 +27,8 @@ struct Message {
 /// named; the rest is read.
 class McapReader {
  public:
-  /// Errors: no such file, not an MCAP file.
-  static tl::expected<McapReader, std::string> open(const std::string& path);
+  /// Errors: no such file, not an MCAP file. `name`: what it is called in them, if not by its path.
+  static tl::expected<McapReader, std::string> open(const std::string& path, const std::string& name = "");
 
   /// All channels that have messages or were announced.
   [[nodiscard]] const std::map<std::uint16_t, Channel>& channels() const { return index_.channels; }
@@ -68,7 +68,7 @@ class McapReader {
     return std::tie(a.log_ns, a.block) > std::tie(b.log_ns, b.block);
   }
 
-  McapReader(std::string path, RandomFile file) : path_(std::move(path)), file_(std::move(file)) {}
+  McapReader(std::string name, RandomFile file) : name_(std::move(name)), file_(std::move(file)) {}
   [[nodiscard]] bool is_wanted(const Block& block) const;
   void push(std::size_t block, std::unique_ptr<OpenBlock> open);
   std::unique_ptr<OpenBlock> spare();
@@ -77,7 +77,7 @@ class McapReader {
   void note_entries(const Block& block, OpenBlock& open);
   void damaged(const Block& block, const std::string& reason);
 
-  std::string path_;
+  std::string name_;
   RandomFile file_;
   Unpacker unpacker_;
   Index index_;
