@@ -21,6 +21,7 @@ constexpr double kUnreached = 1000;      // an end that the search knows no way 
 constexpr double kLastIsCheaper = 0.97;  // hysteresis
 constexpr double kHolds_m[] = {1.5, 3};
 constexpr double kSlow_mps = 1.5;
+constexpr double kSlowFor_m = 3;          // after what it holds; then it may drive as fast as its bends allow
 constexpr double kSteeringBelow_mps = 1;  // below it, steering is simulated as at it
 constexpr double kAim = 0.75;             // of the tolerance: who aims at its rim misses it by a slip
 constexpr double kSlips = 1.15;           // wider than the tightest turn may one be that it is told to drive
@@ -64,8 +65,9 @@ Fan::Fan(const PlannerConfig& config) : config_(config), sight_(config.vehicle) 
 
 void Fan::list_inputs() {
   const VehicleLimits& vehicle = config_.vehicle;
-  const double cruise_mps = std::min(config_.speed_mps, vehicle.max_speed_mps);
-  for (const double speed_mps : {cruise_mps, cruise_mps / 2, std::min(kSlow_mps, cruise_mps)}) {
+  cruise_mps_ = std::min(config_.speed_mps, vehicle.max_speed_mps);
+  timed_ = 1 + kPerSecond / cruise_mps_;
+  for (const double speed_mps : {cruise_mps_, cruise_mps_ / 2, std::min(kSlow_mps, cruise_mps_)}) {
     const double most_per_m =
         std::min(vehicle.max_curvature_per_m, vehicle.max_lateral_accel_mps2 / (speed_mps * speed_mps));
     inputs_.push_back({speed_mps, 0, 0, false});
@@ -73,7 +75,7 @@ void Fan::list_inputs() {
       for (int i = -4; i <= 4; ++i)
         inputs_.push_back({speed_mps, hold_m, most_per_m * i * std::abs(i) / 16, false});
   }
-  inputs_.push_back({cruise_mps, 0, 0, true});
+  inputs_.push_back({cruise_mps_, 0, 0, true});
 }
 
 double Fan::reach_m(double speed_mps) const {
@@ -109,7 +111,7 @@ void Fan::look_at_start(const FanInput& input) {
   const VehicleLimits& vehicle = config_.vehicle;
   start_strain_ = std::max(1.0, strain_of(stance_at(*input.map, vehicle, input.pose), vehicle));
   start_fits_ = input.costs->fits(input.pose);
-  start_to_go_ = to_go(input, input.pose, false);
+  start_to_go_ = to_go(input, input.pose, false) * timed_;
   start_turning_ = turning(input, input.pose, false);
   if (!start_fits_) start_room_m_ = room_m(*input.costs, vehicle, input.pose);
 }
@@ -168,12 +170,24 @@ void Fan::drive(const FanInput& input, const Inputs& inputs, Progress at) {
     point.curvature_per_m = at.curvature_per_m;
     if (!append(input, point, at.speed_mps)) return;
     at.pose = moved(at.pose, kStep_m, at.curvature_per_m);
-    const double square = at.speed_mps * at.speed_mps;
-    at.speed_mps = at.speed_mps > inputs.speed_mps
-                       ? std::max(inputs.speed_mps,
-                                  std::sqrt(std::max(0.0, square - 1.4 * vehicle.max_decel_mps2 * kStep_m)))
-                       : std::min(inputs.speed_mps, std::sqrt(square + 2 * vehicle.max_accel_mps2 * kStep_m));
+    at.speed_mps = towards(at.speed_mps, target_mps(inputs, want_per_m));
   }
+}
+
+double Fan::target_mps(const Inputs& inputs, double want_per_m) const {
+  const double driven_m = static_cast<double>(now_.points.size()) * kStep_m;
+  if (driven_m < inputs.hold_m + kSlowFor_m) return inputs.speed_mps;
+  const VehicleLimits& vehicle = config_.vehicle;
+  const double bend_mps = std::sqrt(vehicle.max_lateral_accel_mps2 / std::max(std::abs(want_per_m), 1e-3));
+  return std::max(inputs.speed_mps, std::min(cruise_mps_, bend_mps));
+}
+
+double Fan::towards(double speed_mps, double target_mps) const {
+  const double square = speed_mps * speed_mps;
+  if (speed_mps < target_mps)
+    return std::min(target_mps, std::sqrt(square + 2 * config_.vehicle.max_accel_mps2 * kStep_m));
+  const double brakes = 1.4 * config_.vehicle.max_decel_mps2 * kStep_m;
+  return std::max(target_mps, std::sqrt(std::max(0.0, square - brakes)));
 }
 
 double Fan::curvature_of(const FanInput& input, const Inputs& inputs, Progress& at) const {
@@ -258,7 +272,7 @@ void Fan::finish(const FanInput& input, double factor) {
   const bool arrived = now_.reached && input.next_m == nullptr;
   if (now_.points.empty() || (length_m < kShortest_m && !arrived) || now_.cost >= best_.cost) return;
   const Pose2& end = now_.points.back().pose;
-  const double left = to_go(input, end, now_.reached);
+  const double left = to_go(input, end, now_.reached) * timed_;
   const double turn = turning(input, end, now_.reached);
   const double gain = start_to_go_ - left;
   now_.leads_on =

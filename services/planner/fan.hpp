@@ -99,6 +99,8 @@ class Fan {
   [[nodiscard]] double stop_cost(const FanInput& input, double length_m) const;
   void finish(const FanInput& input, double factor);
   [[nodiscard]] double curvature_of(const FanInput& input, const Inputs& inputs, Progress& at) const;
+  [[nodiscard]] double target_mps(const Inputs& inputs, double want_per_m) const;
+  [[nodiscard]] double towards(double speed_mps, double target_mps) const;
   [[nodiscard]] double to_go(const FanInput& input, const Pose2& from, bool reached) const;
   [[nodiscard]] double turning(const FanInput& input, const Pose2& from, bool reached) const;
   [[nodiscard]] std::size_t steps(double speed_mps) const;
@@ -113,6 +115,8 @@ class Fan {
   bool sees_ = true;  ///< All of this trajectory so far.
   double start_to_go_ = 0;
   double start_turning_ = 0;
+  double cruise_mps_ = 0;
+  double timed_ = 1;  ///< What a metre of good ground costs with its time, at the speed that is asked for.
 };
 
 }  // namespace gvom::planner

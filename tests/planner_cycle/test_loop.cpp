@@ -156,5 +156,24 @@ TEST_CASE("A course of three waypoints is driven through without a stop") {
   CHECK(slowest_mps > 1.0);
 }
 
+// A wall from y 12 to the map's border between it and its goal: the way is behind it, however fast it drives.
+TEST_CASE("At full speed along a wall it turns back where the way is behind it, and soon") {
+  const PlannerConfig config;
+  SmallMap map(128);
+  map.obstacle(box(31, 12, 32, 51));
+  Loop loop(config, map, {25, 14, 1.5707963});
+  loop.planner.set_course({{25, 45}});
+  for (int i = 0; i < 40; ++i) loop.step();
+  REQUIRE(loop.vehicle.speed_mps() > 4);
+  const double turned_m = loop.vehicle.pose().y_m;
+  loop.planner.set_course({{42, 26}});
+  double farthest_m = 0;
+  CHECK(loop.until(Mode::arrived, 40, [&](const Plan&) {
+    farthest_m = std::max(farthest_m, loop.vehicle.pose().y_m - turned_m);
+  }));
+  CAPTURE(turned_m, farthest_m);
+  CHECK(farthest_m < 7.5);
+}
+
 }  // namespace
 }  // namespace gvom::test
