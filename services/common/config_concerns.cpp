@@ -60,6 +60,7 @@ const std::vector<KeyConcern>& key_concerns() {
       {"fusion.voxel_rate_hz", kFusion | kBroker},
       {"ipc", kBroker},
       {"planner", kPlanner},
+      {"bridge", kBridge},
       {"odometry", kIngests},
       {"odometry.max_speed_mps", kIngests | kPlanner},
       {"odometry.source", kOdometry},
@@ -77,6 +78,7 @@ bool concerns(const std::string& key, const std::string& process) {
   if (process == "gvom-fusion") return (concern & kFusion) != 0;
   if (process == "gvom-odometry") return (concern & kOdometry) != 0;
   if (process == "gvom-planner") return (concern & kPlanner) != 0;
+  if (process == "gvom-bridge") return (concern & kBridge) != 0;
   const std::string lidar = lidar_of(process);
   if (lidar.empty()) return false;
   const auto of_lidar = split_lidar_key(key);
@@ -94,6 +96,7 @@ std::string who_is_concerned(const std::string& key) {
   add(kIngest, "gvom-ingest@NAME");
   add(kOdometry, "gvom-odometry");
   add(kPlanner, "gvom-planner");
+  add(kBridge, "gvom-bridge");
   add(kBroker, "everything if the pools of shared memory change");
   return who.empty() ? "nobody" : who;
 }

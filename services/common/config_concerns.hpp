@@ -18,6 +18,7 @@ enum Concern : unsigned {
   kIngest = 4,    ///< That of the key's own lidar.
   kOdometry = 8,  ///< gvom-odometry, which replays.
   kPlanner = 32,  ///< gvom-planner.
+  kBridge = 64,   ///< gvom-bridge.
   kBroker = 16,   ///< It decides the pools of shared memory: if they change, everything starts again.
 };
 

@@ -140,7 +140,8 @@ std::vector<VehicleRow> process_rows() {
 const std::vector<VehicleRow>& vehicle_rows() {
   static const std::vector<VehicleRow> all = [] {
     std::vector<VehicleRow> rows;
-    for (const auto& part : {map_rows(), limit_rows(), layer_rows(), process_rows(), planner_rows()})
+    for (const auto& part :
+         {map_rows(), limit_rows(), layer_rows(), process_rows(), planner_rows(), bridge_rows()})
       rows.insert(rows.end(), part.begin(), part.end());
     return rows;
   }();

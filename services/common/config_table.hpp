@@ -61,6 +61,8 @@ const std::vector<LidarRow>& lidar_rows();
 /// Those of vehicle_rows() that a planner reads: `vehicle.*` and `planner.*`.
 std::vector<VehicleRow> limit_rows();
 std::vector<VehicleRow> planner_rows();
+/// Those that the bridge reads: `bridge.*`.
+std::vector<VehicleRow> bridge_rows();
 
 bool is_identifier(const std::string& text);
 

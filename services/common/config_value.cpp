@@ -170,19 +170,35 @@ std::string comment(const RowInfo& row) {
   return text + row.meaning;
 }
 
+std::string spaces(std::size_t count) {
+  return std::string(count, ' ');
+}
+
+/// Prints what a key's sections are called, each a level deeper, but for those that it shares with the key
+/// before it; returns how many there are.
+std::size_t print_sections(const std::string& key, const std::string& before, const std::string& indent,
+                           std::ostream& out) {
+  std::size_t depth = 0;
+  bool shared = true;
+  for (std::size_t begin = 0, dot; (dot = key.find('.', begin)) != std::string::npos; begin = dot + 1) {
+    shared = shared && before.compare(0, dot + 1, key, 0, dot + 1) == 0;
+    if (!shared) out << indent << spaces(2 * depth) << key.substr(begin, dot - begin) << ":\n";
+    ++depth;
+  }
+  return depth;
+}
+
 /// Rows of which some share a section, as a YAML mapping.
 template <typename Config>
 void print_rows(const std::vector<Row<Config>>& rows, Config& config, const std::string& indent,
                 std::ostream& out) {
-  std::string section;
+  std::string before;
   for (const Row<Config>& row : rows) {
     const std::string key = row.info.key;
-    const std::size_t dot = key.rfind('.');
-    const std::string parent = dot == std::string::npos ? "" : key.substr(0, dot);
-    if (parent != section && !parent.empty()) out << indent << parent << ":\n";
-    section = parent;
+    const std::size_t depth = print_sections(key, before, indent, out);
+    before = key;
     const std::string value = value_text(row.field(config));
-    out << indent << (parent.empty() ? "" : "  ") << (value.empty() ? "# " : "") << key.substr(dot + 1)
+    out << indent << spaces(2 * depth) << (value.empty() ? "# " : "") << key.substr(key.rfind('.') + 1)
         << ": " << (value.empty() ? "[x, y, z]" : value) << "  # " << comment(row.info) << "\n";
   }
 }

@@ -9,6 +9,7 @@
 
 #include "core/backend.hpp"
 #include "core/config.hpp"
+#include "services/common/bridge_config.hpp"
 #include "services/common/planner_config.hpp"
 
 namespace gvom::services {
@@ -77,6 +78,7 @@ struct VehicleConfig {
   IpcConfig ipc;
   OdometryConfig odometry;
   planner::PlannerConfig planner;   ///< Keys `planner.*`, and its `vehicle` the rest of `vehicle.*`.
+  bridge::BridgeConfig bridge;      ///< Keys `bridge.*`.
   std::vector<LidarConfig> lidars;  ///< Sorted by name.
 };
 

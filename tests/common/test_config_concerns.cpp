@@ -16,7 +16,7 @@ namespace {
 
 const std::vector<std::string> kProcesses = {"gvom-roudi",        "gvom-fusion",      "gvom-odometry",
                                              "gvom-ingest-front", "gvom-ingest-rear", "gvom-planner",
-                                             "gvom-snapshot"};
+                                             "gvom-bridge",       "gvom-snapshot"};
 
 services::VehicleConfig vehicle(const std::vector<std::string>& sets = {}) {
   const auto config = services::load_vehicle_config(GVOM_SOURCE_DIR "/config/vehicles/two_lidars.yaml", sets);
@@ -54,6 +54,7 @@ TEST_CASE("a change concerns those who use the key, and nobody else") {
   CHECK(changed_by("vehicle.radius_m=1.9") == Names{"gvom-fusion", "gvom-ingest-front", "gvom-ingest-rear"});
   CHECK(changed_by("lidars.front.T_base_sensor.yaw=0.5") == Names{"gvom-ingest-front", "gvom-planner"});
   CHECK(changed_by("ipc.max_planners=7") == Names{"gvom-roudi"});
+  CHECK(changed_by("bridge.rate_hz=3") == Names{"gvom-bridge"});
   CHECK(changed_by("name=other").empty());
 }
 

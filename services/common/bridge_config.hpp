@@ -1,0 +1,38 @@
+// What can be configured about the bridge. Default, unit, range and meaning stand on each field; the YAML
+// keys carry the fields' names.
+#pragma once
+
+#include <string>
+
+namespace gvom::bridge {
+
+/// `bridge.foxglove.*`: the server for Foxglove, Lichtblick and the page.
+struct FoxgloveConfig {
+  std::string address = "127.0.0.1";  ///< Of this machine, to listen at; 0.0.0.0: all. Empty: no server.
+  int port = 8765;                    ///< 0 .. 65535; 0: any that is free.
+  /// Origins of web pages that may connect, beside the bridge's own; between commas.
+  std::string origins = "https://app.foxglove.dev,https://studio.foxglove.dev,file://";
+  std::string page;  ///< Folder of the page; empty: where it was installed.
+};
+
+/// `bridge.mcap.*`: the recorder.
+struct McapConfig {
+  std::string folder;   ///< Where files go; empty: nothing is recorded.
+  int split_mb = 1024;  ///< A new file at this size, 1 .. 1048576.
+  std::string topics =
+      "/gvom/costmap,/gvom/layers,/gvom/voxels,/tf,/gvom/plan,/gvom/trajectory,"
+      "/diagnostics,/gvom/status";  ///< Which are recorded, between commas.
+};
+
+/// `bridge.*`.
+struct BridgeConfig {
+  double rate_hz = 10.0;                        ///< Of what is made of layers, at most, 0.1 .. 100.
+  std::string odom_frame = "odom";              ///< What the others call the frame of the map.
+  std::string base_frame = "base_link";         ///< And the vehicle.
+  std::string grid_map_layers = "height,cost";  ///< Between commas: few, each is 4 bytes a column.
+  std::string points_layers = "slope,roughness,obstacle_density,cost";  ///< Fields of the columns' cloud.
+  FoxgloveConfig foxglove;
+  McapConfig mcap;
+};
+
+}  // namespace gvom::bridge
