@@ -2,6 +2,7 @@
 #include <spdlog/spdlog.h>
 
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "services/common/log.hpp"
 #include "services/common/vehicle_config.hpp"
 #include "services/ingest/loss_words.hpp"
+#include "tools/map/mcap_output.hpp"
 #include "tools/map/offline.hpp"
 #include "tools/map/output.hpp"
 
@@ -21,7 +23,8 @@ using gvom::services::to_int;
 struct Options {
   std::vector<std::string> sources;
   std::string odometry;
-  std::string out;
+  std::string out;   // empty: no folders
+  std::string mcap;  // empty: no MCAP file
   bool voxels = false;
   bool no_deskew = false;
   std::string backend;
@@ -45,18 +48,56 @@ ExitCode apply_sources(const std::vector<std::string>& sources, gvom::services::
   return ExitCode::ok;
 }
 
-tl::expected<void, std::string> write_map(gvom::tools::OfflineMapper& mapper,
-                                          const gvom::tools::MappedSweep& sweep,
-                                          gvom::tools::LayerBuffers& layers, const std::string& folder,
-                                          bool voxels) {
+tl::expected<void, std::string> write_folder(gvom::tools::OfflineMapper& mapper,
+                                             const gvom::tools::MappedSweep& sweep,
+                                             const gvom::tools::LayerBuffers& layers,
+                                             const std::string& folder, bool voxels) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) return tl::unexpected(folder + ": " + error.message());
-  if (const auto made = mapper.make_layers(layers.arrays()); !made) return tl::unexpected(made.error().what);
   auto written = layers.write(folder);
   if (written && voxels) written = gvom::tools::write_voxels(folder, mapper.fuser());
   return written ? gvom::tools::write_meta(folder, mapper, sweep) : written;
 }
+
+/// Where the maps go: folders of arrays, an MCAP file, or both.
+class Outputs {
+ public:
+  Outputs(const Options& options, int size_xy) : options_(options), layers_(size_xy) {}
+
+  tl::expected<void, std::string> open(const gvom::services::VehicleConfig& config) {
+    if (options_.mcap.empty()) return {};
+    auto created = gvom::tools::McapOutput::create(options_.mcap, config);
+    if (!created) return tl::unexpected(created.error());
+    mcap_.emplace(std::move(*created));
+    return {};
+  }
+
+  tl::expected<void, std::string> write(gvom::tools::OfflineMapper& mapper,
+                                        const gvom::tools::MappedSweep& sweep) {
+    if (const auto made = mapper.make_layers(layers_.arrays()); !made)
+      return tl::unexpected(made.error().what);
+    tl::expected<void, std::string> written;
+    if (!options_.out.empty())
+      written = write_folder(mapper, sweep, layers_, fmt::format("{}/{:06d}", options_.out, maps_),
+                             options_.voxels);
+    if (written && mcap_) written = mcap_->write(layers_.arrays(), mapper.fuser());
+    if (written) ++maps_;
+    return written;
+  }
+
+  tl::expected<void, std::string> close() {
+    return mcap_ ? mcap_->close() : tl::expected<void, std::string>{};
+  }
+
+  [[nodiscard]] int maps() const { return maps_; }
+
+ private:
+  const Options& options_;
+  gvom::tools::LayerBuffers layers_;
+  std::optional<gvom::tools::McapOutput> mcap_;
+  int maps_ = 0;
+};
 
 /// Those that came since the last call; `told`: for each lidar, how many were said.
 void say_warnings(const gvom::tools::OfflineMapper& mapper, std::vector<std::size_t>& told) {
@@ -108,9 +149,12 @@ int run(const gvom::services::VehicleConfig& config, const Options& options) {
   for (const std::string& warning : mapper->odometry_warnings()) spdlog::warn("{}", warning);
   say_backends(*mapper);
   std::vector<std::size_t> told(mapper->lidars().size(), 0);
-  gvom::tools::LayerBuffers layers(config.mapper.map.size_xy);
+  Outputs outputs(options, config.mapper.map.size_xy);
+  if (const auto opened = outputs.open(config); !opened) {
+    spdlog::error("{}", opened.error());
+    return to_int(ExitCode::unavailable);
+  }
   gvom::tools::MappedSweep sweep;
-  int maps = 0;
   ExitCode code = ExitCode::ok;
   for (;;) {
     say_warnings(*mapper, told);
@@ -122,17 +166,22 @@ int run(const gvom::services::VehicleConfig& config, const Options& options) {
       continue;  // one recording broke off; the others go on
     }
     if (!*mapped) break;
-    const std::string folder = fmt::format("{}/{:06d}", options.out, maps++);
-    if (const auto written = write_map(*mapper, sweep, layers, folder, options.voxels); !written) {
+    if (const auto written = outputs.write(*mapper, sweep); !written) {
       spdlog::error("{}", written.error());
+      static_cast<void>(outputs.close());  // its words are those of the error
       return to_int(ExitCode::unavailable);
     }
   }
+  if (const auto closed = outputs.close(); !closed) {
+    spdlog::error("{}", closed.error());
+    return to_int(ExitCode::unavailable);
+  }
   say_losses(*mapper, config);
   say_grounds(*mapper);
-  spdlog::info("{} maps in {}; {} sweeps without odometry around them, {} maps refused", maps, options.out,
-               mapper->sweeps_without_odometry(), mapper->maps_refused());
-  return to_int(maps == 0 && code == ExitCode::ok ? ExitCode::bad_data : code);
+  spdlog::info("{} maps in {}; {} sweeps without odometry around them, {} maps refused", outputs.maps(),
+               options.out.empty() ? options.mcap : options.out, mapper->sweeps_without_odometry(),
+               mapper->maps_refused());
+  return to_int(outputs.maps() == 0 && code == ExitCode::ok ? ExitCode::bad_data : code);
 }
 
 }  // namespace
@@ -147,6 +196,9 @@ int main(int argc, char** argv) {
       "tum:FILE, euroc:FILE, kitti:FILE?times=FILE, or static: the vehicle stands at the origin "
       "(default: odometry.source)");
   cli.app().add_option("--out", options.out, "folder for the maps, 000000 and up");
+  cli.app()
+      .add_option("--mcap", options.mcap, "one file of the maps for Foxglove, as gvom-bridge records them")
+      ->type_name("FILE.mcap");
   cli.app().add_flag("--voxels", options.voxels, "write the fused voxels too");
   cli.app().add_flag("--no-deskew", options.no_deskew,
                      "give all returns of a sweep its stamp (R3 off, for comparison)");
@@ -159,8 +211,8 @@ int main(int argc, char** argv) {
       "--out maps --voxels");
   auto config = cli.parse(argc, argv);
   if (!config) return to_int(config.error());
-  if (options.out.empty()) {
-    spdlog::error("--out DIR is missing");
+  if (options.out.empty() && options.mcap.empty()) {
+    spdlog::error("--out DIR or --mcap FILE is missing");
     return to_int(ExitCode::usage);
   }
   if (const ExitCode code = apply_sources(options.sources, *config); code != ExitCode::ok)
