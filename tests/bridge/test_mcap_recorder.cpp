@@ -1,0 +1,92 @@
+// The recorder: what it is offered is in its files; a folder that cannot be written is told.
+#include <catch2/catch.hpp>
+
+#include "services/bridge/mcap_recorder.hpp"
+#include "tests/bridge/mcap_file.hpp"
+#include "tests/bridge/scratch_folder.hpp"
+#include "tests/bridge/ws_client.hpp"
+
+namespace {
+
+using namespace gvom;
+using bridge::McapRecorder;
+using bridge::TopicId;
+
+ros::Blob blob(std::size_t size, std::uint8_t value) {
+  return std::make_shared<std::vector<std::uint8_t>>(size, value);
+}
+
+std::vector<std::string> files_in(const std::string& folder) {
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+TEST_CASE("the topics that are asked for are recorded, with schema and quality of service") {
+  const test::ScratchFolder folder;
+  bridge::RecorderOptions options;
+  options.folder = folder.path() + "/new/one";
+  options.topics = {TopicId::costmap, TopicId::status};
+  {
+    McapRecorder recorder(options);
+    CHECK(recorder.wants(bridge::topic(TopicId::costmap)));
+    CHECK(!recorder.wants(bridge::topic(TopicId::layers)));
+    for (std::uint8_t i = 0; i < 10; ++i) {
+      recorder.offer(bridge::topic(TopicId::costmap), i, blob(1000, i));
+      recorder.offer(bridge::topic(TopicId::status), i, blob(2, '1'));
+    }
+    CHECK(test::eventually([&] { return recorder.counters().sent == 20; }));
+    CHECK(recorder.counters().bytes == 10 * 1002);
+    CHECK(recorder.problem().empty());
+  }
+  const auto files = files_in(options.folder);
+  REQUIRE(files.size() == 1);
+  const test::McapFile file = test::read_mcap(files[0]);
+  CHECK(file.finished);
+  REQUIRE(file.messages.size() == 20);
+  CHECK(file.messages[18].topic == "/gvom/costmap");
+  CHECK(file.messages[18].bytes == *blob(1000, 9));
+  CHECK(file.messages[19].type.empty());
+  CHECK_THAT(file.schemas.at("nav_msgs/msg/OccupancyGrid"), Catch::Contains("MSG: geometry_msgs/Pose\n"));
+  CHECK_THAT(file.metadata.at("/gvom/costmap"), Catch::Contains("durability: 1\n"));
+}
+
+TEST_CASE("what a slow disk leaves no room for is dropped and counted") {
+  const test::ScratchFolder folder;
+  bridge::RecorderOptions options;
+  options.folder = folder.path();
+  options.topics = {TopicId::layers};
+  options.most_waiting_bytes = 1000;
+  McapRecorder recorder(options);
+  recorder.offer(bridge::topic(TopicId::layers), 1, blob(1001, 0));
+  CHECK(recorder.counters().dropped == 1);
+  recorder.offer(bridge::topic(TopicId::layers), 1, blob(1000, 0));
+  CHECK(test::eventually([&] { return recorder.counters().sent == 1; }));
+}
+
+TEST_CASE("a file that cannot be written ends the recording, in words") {
+  bridge::RecorderOptions options;
+  options.folder = "/proc/nowhere";
+  options.topics = {TopicId::layers};
+  McapRecorder recorder(options);
+  CHECK_THAT(recorder.problem(), Catch::Contains("/proc/nowhere") && Catch::Contains("bridge.mcap.folder"));
+  CHECK(!recorder.wants(bridge::topic(TopicId::layers)));
+  recorder.offer(bridge::topic(TopicId::layers), 1, blob(1, 0));
+  CHECK(recorder.counters().dropped == 1);
+}
+
+TEST_CASE("a folder that is taken away ends the recording when the next file is made") {
+  const test::ScratchFolder folder;
+  bridge::RecorderOptions options;
+  options.folder = folder.path() + "/gone";
+  options.topics = {TopicId::layers};
+  McapRecorder recorder(options);
+  std::filesystem::remove_all(options.folder);
+  recorder.offer(bridge::topic(TopicId::layers), 1, blob(1, 0));
+  REQUIRE(test::eventually([&] { return !recorder.problem().empty(); }));
+  CHECK_THAT(recorder.problem(), Catch::Contains("_000.mcap: No such file") && Catch::Contains("restart"));
+  CHECK(!recorder.wants(bridge::topic(TopicId::layers)));
+}
+
+}  // namespace
