@@ -1,70 +1,24 @@
 #include <map>
 #include <utility>
 
-#include "services/ingest/ouster_decoder.hpp"
+#include "services/ingest/bag_source.hpp"
+#include "services/ingest/make_decoder.hpp"
 #include "services/ingest/packet_sweep_source.hpp"
 #include "services/ingest/pcap_reader.hpp"
+#include "services/ingest/probe.hpp"
 #include "services/ingest/scan_source.hpp"
 #include "services/ingest/udp_receiver.hpp"
 #include "services/ingest/uri.hpp"
-#include "services/ingest/velodyne_calibration.hpp"
-#include "services/ingest/velodyne_decoder.hpp"
 
 namespace gvom::ingest {
 namespace {
 
 using SourceResult = tl::expected<std::unique_ptr<Source>, SourceError>;
-using DecoderResult = tl::expected<std::unique_ptr<Decoder>, std::string>;
 using PacketsResult = tl::expected<std::unique_ptr<PacketSource>, SourceError>;
-
-DecoderResult make_ouster(const SourceUri& uri, const SourceOptions& options, SourceState& state) {
-  const auto path = uri.option("meta");
-  if (!path) return tl::unexpected("source '" + uri.text + "': needs meta=FILE.json");
-  auto metadata = read_ouster_metadata(*path, state.warnings);
-  if (!metadata) return tl::unexpected(metadata.error());
-  const auto serial = number_option(uri, "serial", 0xFF'FFFF'FFFF);
-  if (!serial) return tl::unexpected(serial.error());
-  if (*serial) metadata->serial = **serial;
-  return std::make_unique<OusterDecoder>(std::move(*metadata), options, state);
-}
-
-using ModelResult = tl::expected<VelodyneModel, std::string>;
-
-ModelResult velodyne_model(const SourceUri& uri) {
-  const auto wrong = [&](const std::string& what) {
-    return tl::unexpected("source '" + uri.text + "': " + what);
-  };
-  const auto name = uri.option("model");
-  if (!name) return wrong("needs model=M (" + known_velodyne_models() + ")");
-  const VelodyneModel* model = find_velodyne_model(*name);
-  if (model == nullptr) return wrong("unknown model '" + *name + "' (" + known_velodyne_models() + ")");
-  const auto calibration = uri.option("calibration");
-  if (model->corrections.empty() && calibration) return wrong("a " + *name + " has no calibration");
-  if (model->corrections.empty()) return *model;
-  if (!calibration) return wrong("needs calibration=FILE.yaml: each " + *name + " has its own");
-  return read_velodyne_calibration(*calibration);
-}
-
-DecoderResult make_velodyne(const SourceUri& uri, const SourceOptions& options, SourceState& state) {
-  auto model = velodyne_model(uri);
-  if (!model) return tl::unexpected(model.error());
-  VelodyneMarks marks{model->model_byte, model->banks, std::nullopt};
-  const auto byte = number_option(uri, "model_byte", 0xFF);
-  if (!byte) return tl::unexpected(byte.error());
-  if (*byte && marks.model_byte) marks.model_byte = static_cast<std::uint8_t>(**byte);
-  if (*byte && !marks.model_byte)
-    return tl::unexpected("source '" + uri.text + "': model_byte: an HDL-64E sends none");
-  if (const auto returns = uri.option("returns")) {
-    if (*returns != "single" && *returns != "dual")
-      return tl::unexpected("source '" + uri.text + "': returns '" + *returns + "' is not single or dual");
-    marks.returns = *returns == "dual" ? VelodyneReturns::dual : VelodyneReturns::single;
-  }
-  return std::make_unique<VelodyneDecoder>(std::move(*model), marks, options, state);
-}
 
 DecoderResult make_decoder(const SourceUri& uri, const SourceOptions& options, SourceState& state) {
   const bool ouster = uri.scheme.compare(0, 6, "ouster") == 0;
-  return ouster ? make_ouster(uri, options, state) : make_velodyne(uri, options, state);
+  return ouster ? make_ouster_decoder(uri, options, state) : make_velodyne_decoder(uri, options, state);
 }
 
 /// Reads `path` up to the first packet that the decoder recognises; an error if there is none.
@@ -73,36 +27,15 @@ tl::expected<void, std::string> probe_recording(const std::string& path, std::op
   SourceState ignored;
   auto reader = PcapReader::open(path, port, ignored);
   if (!reader) return tl::unexpected(reader.error());
-  std::map<std::size_t, std::uint64_t> sizes;
-  std::string of_another;
-  for (;;) {
-    Packet packet;
-    const auto event = (*reader)->next(packet, std::chrono::milliseconds(0));
-    if (!event) return tl::unexpected(event.error());
-    if (*event == PacketEvent::end) break;
-    if (decoder.recognises(packet) && decoder.is_of_this_sensor(packet)) {
-      decoder.expect_like(packet);
-      return {};
-    }
-    ++sizes[packet.size];
-    KindText kind{};
-    decoder.name_other(packet, kind);
-    if (of_another.empty() && kind[0] != '\0')
-      of_another = std::string(kind.data()) + "); " + decoder.override_advice(packet);
-  }
-  if (!of_another.empty()) return tl::unexpected(path + ": the packets are of another sensor (" + of_another);
-  if (!ignored.warnings.empty())
+  const auto strangers = look_for_sensor(**reader, decoder);
+  if (!strangers) return tl::unexpected(strangers.error());
+  if (strangers->found) return {};
+  if (strangers->of_another.empty() && !ignored.warnings.empty())
     return tl::unexpected(ignored.warnings.front() + ", but there is no lidar packet");
   if ((*reader)->records() == 0) return tl::unexpected(path + ": holds no packets");
-  std::string found;
-  for (const auto& [size, count] : sizes) {
-    if (found.size() > 200) break;
-    found += (found.empty() ? "" : ", ") + std::to_string(count) + " of " + std::to_string(size) + " bytes";
-  }
-  return tl::unexpected(path + ": no packet is of the sensor that is asked for (" + decoder.expects() +
-                        "); UDP packets in the recording" +
-                        (port ? " to port " + std::to_string(*port) : "") + ": " +
-                        (found.empty() ? "none" : found));
+  return tl::unexpected(
+      no_such_packets(*strangers, decoder, path,
+                      "UDP packets in the recording" + (port ? " to port " + std::to_string(*port) : "")));
 }
 
 PacketsResult open_recording(const SourceUri& uri, Decoder& decoder, SourceState& state) {
@@ -160,6 +93,7 @@ tl::expected<std::unique_ptr<Source>, SourceError> open_source(const std::string
   const auto uri = parse_source_uri(text);
   if (!uri) return tl::unexpected(uri.error());
   const std::map<std::string, std::set<std::string>> schemes = {
+      {"bag", {"calibration", "deskew", "meta", "model", "model_byte", "returns", "serial", "time", "topic"}},
       {"ouster", {"from", "meta", "port", "serial"}},
       {"ouster-udp", {"bind", "from", "group", "interface", "meta", "serial"}},
       {"velodyne", {"calibration", "from", "model", "model_byte", "port", "returns"}},
@@ -170,7 +104,7 @@ tl::expected<std::unique_ptr<Source>, SourceError> open_source(const std::string
   const auto scheme = schemes.find(uri->scheme);
   if (scheme == schemes.end()) {
     return tl::unexpected("source '" + text + "': unknown scheme '" + uri->scheme +
-                          "' (ouster, ouster-udp, velodyne, velodyne-udp, scans)");
+                          "' (bag, ouster, ouster-udp, velodyne, velodyne-udp, scans)");
   }
   const auto checked = check_options(*uri, scheme->second);
   if (!checked) return tl::unexpected(checked.error());
@@ -178,6 +112,7 @@ tl::expected<std::unique_ptr<Source>, SourceError> open_source(const std::string
     return tl::unexpected("source '" + text +
                           "': clock: arrival needs packets; scans have no times of arrival");
   if (uri->scheme == "scans") return open_scans(*uri, options);
+  if (uri->scheme == "bag") return open_bag_source(*uri, options);
   const bool live = uri->scheme == "ouster-udp" || uri->scheme == "velodyne-udp";
   return open_packets(*uri, options, live);
 }

@@ -106,14 +106,16 @@ std::optional<TimeUnit> parse_time_unit(const std::string& word) {
   return std::nullopt;
 }
 
-const PcdField* PointTimes::find_field(const TimedScan& scan, std::vector<std::string>& warnings) {
-  const PcdField* found = nullptr;
-  if (unit_ != TimeUnit::none) {
-    for (const char* name : {"t", "time", "timestamp", "time_stamp", "time_offset", "offset_time"}) {
-      for (const PcdField& field : scan.cloud.fields)
-        if (found == nullptr && is_usable(field) && lower(field.name) == name) found = &field;
-    }
+const PcdField* PointTimes::find_time(const PcdCloud& cloud) {
+  for (const char* name : {"t", "time", "timestamp", "time_stamp", "time_offset", "offset_time"}) {
+    for (const PcdField& field : cloud.fields)
+      if (is_usable(field) && lower(field.name) == name) return &field;
   }
+  return nullptr;
+}
+
+const PcdField* PointTimes::find_field(const TimedScan& scan, std::vector<std::string>& warnings) {
+  const PcdField* const found = unit_ == TimeUnit::none ? nullptr : find_time(scan.cloud);
   for (const PcdField& field : scan.cloud.fields) {
     if (&field == found || field.count == 0 || asked_ || !looks_like_time(field.name)) continue;
     if (!told_.insert(field.name).second) continue;
@@ -136,8 +138,8 @@ tl::expected<void, std::string> PointTimes::decide(const PcdField& field, const 
       fits_as_usual && evidence.of_clock(usual) && !evidence.since_1970(usual) &&
       std::any_of(fitting.begin(), fitting.end(), [&](TimeUnit unit) { return evidence.since_1970(unit); });
   if (doubtful || (!fits_as_usual && fitting.size() != 1)) {
-    return tl::unexpected("the unit of field '" + field.name + "' cannot be told: " + evidence.text() +
-                          "; scans:PATH?time=ns (us, ms, s, or none: without deskewing) says it");
+    return tl::unexpected("the unit of field '" + field.name + "' cannot be told: " + evidence.text() + "; " +
+                          scan.option + "ns (us, ms, s, or none: without deskewing) says it");
   }
   const TimeUnit unit = fits_as_usual ? usual : fitting[0];
   if (evidence.span() > 0 || evidence.of_clock(unit)) unit_ = unit;
@@ -150,7 +152,8 @@ tl::expected<void, std::string> PointTimes::decide(const PcdField& field, const 
   if (evidence.is_too_fast(unit)) {
     warnings.push_back(scan.path + ": the " + std::to_string(evidence.points) + " points take only " +
                        seconds + " by '" + field.name + "' in " + name_of(unit) +
-                       ": they are hardly deskewed; times within a packet? Another unit: scans:PATH?time=us");
+                       ": they are hardly deskewed; times within a packet? Another unit: " + scan.option +
+                       "us");
   }
   return {};
 }
@@ -163,9 +166,8 @@ tl::expected<void, std::string> PointTimes::settle(const PcdField& field, const 
   const bool coarse = field.type == 'F' && field.size == 4 && evidence.of_clock(likely) &&
                       evidence.span() < 1000 * evidence.largest() * std::numeric_limits<float>::epsilon();
   if (coarse) {
-    return tl::unexpected(
-        "field '" + field.name +
-        "' is a clock's time in 4 bytes, which are too few; scans:PATH?time=none does without");
+    return tl::unexpected("field '" + field.name + "' is a clock's time in 4 bytes, which are too few; " +
+                          scan.option + "none does without");
   }
   if (!unit_) {
     const auto decided = decide(field, evidence, scan, warnings);

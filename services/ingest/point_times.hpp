@@ -25,6 +25,7 @@ struct TimedScan {
   const std::vector<bool>& is_hit;  ///< As many as points are wanted.
   std::int64_t stamp_ns;
   const std::string& path;
+  const std::string& option;  ///< How a person says the unit: "scans:PATH?time=".
 };
 
 /// Finds out unit and origin from the first scan that tells them, and holds every later one to them. Whole
@@ -36,6 +37,9 @@ class PointTimes {
  public:
   /// `asked`: instead of finding out.
   explicit PointTimes(std::optional<TimeUnit> asked) : unit_(asked), asked_(asked.has_value()) {}
+
+  /// The field that the times are taken from; null if there is none.
+  static const PcdField* find_time(const PcdCloud& cloud);
 
   /// Fills `out_ns` with one time a point. Fields that look like times and are not used are told of by name,
   /// once. Points that are no hits get a time that a hit has, since theirs may be anything.

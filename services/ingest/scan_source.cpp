@@ -14,6 +14,7 @@
 
 #include "services/ingest/arrival_clock.hpp"
 #include "services/ingest/bytes.hpp"
+#include "services/ingest/cloud_points.hpp"
 
 namespace gvom::ingest {
 namespace {
@@ -21,6 +22,8 @@ namespace {
 constexpr std::size_t kFilesToJudge = 20;
 
 const std::string kSayFloats = ": say scans:PATH?floats=4 (x y z intensity), 5 (nuScenes) or 6 (Waymo)";
+
+const std::string kTimeOption = "scans:PATH?time=";
 
 bool is_bin(const ScanFile& scan) {
   return scan.path.compare(scan.path.size() - 4, 4, ".bin") == 0;
@@ -198,42 +201,23 @@ tl::expected<void, std::string> ScanSource::read_bin(const ScanFile& scan, Sweep
 /// Fills the places and whether they are hits; the times are not known yet.
 tl::expected<void, std::string> ScanSource::read_places(const ScanFile& scan, const PcdCloud& cloud,
                                                         Sweep& out) {
-  const PcdField* const axes[3] = {cloud.find("x"), cloud.find("y"), cloud.find("z")};
-  for (const PcdField* axis : axes) {
-    if (axis == nullptr || axis->type != 'F' || axis->count != 1)
-      return tl::unexpected(std::string("no floating-point fields x, y, z"));
-  }
   if (cloud.more_points > 0 && !told_more_points_) {
     state_.warnings.push_back(scan.path + ": holds " + std::to_string(cloud.more_points) +
                               " points more than its header says, which are left out");
     told_more_points_ = true;
   }
-  const std::size_t count = limit(scan, cloud.points);
-  is_hit_.resize(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const Return r{cloud.number(*axes[0], i), cloud.number(*axes[1], i), cloud.number(*axes[2], i), 0};
-    const bool finite = std::isfinite(r.x_m) && std::isfinite(r.y_m) && std::isfinite(r.z_m);
-    is_hit_[i] = finite && (r.x_m != 0 || r.y_m != 0 || r.z_m != 0);
-    out.returns.push_back(r);
-  }
-  return {};
+  return take_points(cloud, limit(scan, cloud.points), out, is_hit_);
 }
 
 tl::expected<void, std::string> ScanSource::read_pcd(const ScanFile& scan, Sweep& out) {
   const auto cloud = parse_pcd({file_.data(), file_.size()}, unpacked_);
   if (!cloud) return tl::unexpected(cloud.error());
   auto done = read_places(scan, *cloud, out);
-  if (done) done = times_.read({*cloud, is_hit_, scan.stamp_ns, scan.path}, point_times_ns_, state_.warnings);
+  if (done)
+    done = times_.read({*cloud, is_hit_, scan.stamp_ns, scan.path, kTimeOption}, point_times_ns_,
+                       state_.warnings);
   if (!done) return done;
-  out.times_ns = point_times_ns_;
-  if (out.returns.empty()) out.times_ns.push_back(scan.stamp_ns);
-  std::sort(out.times_ns.begin(), out.times_ns.end());
-  out.times_ns.erase(std::unique(out.times_ns.begin(), out.times_ns.end()), out.times_ns.end());
-  out.stamp_ns = out.times_ns.back();
-  for (std::size_t i = 0; i < out.returns.size(); ++i) {
-    const auto at = std::lower_bound(out.times_ns.begin(), out.times_ns.end(), point_times_ns_[i]);
-    out.returns[i].time_index = static_cast<std::uint32_t>(at - out.times_ns.begin());
-  }
+  set_times(point_times_ns_, scan.stamp_ns, out);
   const bool has_hits = std::find(is_hit_.begin(), is_hit_.end(), true) != is_hit_.end();
   if (has_hits && newest_ns_ && out.stamp_ns <= *newest_ns_)
     return tl::unexpected(std::string("time goes back: it is before the scan in front of it"));

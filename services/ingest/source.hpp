@@ -114,7 +114,8 @@ class Source {
 std::string lack_of_room(const std::string& lidar, std::size_t max_returns, const Source& source);
 
 /// Opens `ouster:FILE.pcap?meta=FILE.json`, `ouster-udp:PORT?meta=FILE.json`, `velodyne:FILE.pcap?model=M`,
-/// `velodyne-udp:PORT?model=M` (M: see known_velodyne_models()) or `scans:PATH`; README.md has all options.
+/// `velodyne-udp:PORT?model=M` (M: see known_velodyne_models()), `scans:PATH` or `bag:PATH?topic=T`;
+/// README.md has all options.
 tl::expected<std::unique_ptr<Source>, SourceError> open_source(const std::string& uri,
                                                                const SourceOptions& options);
 

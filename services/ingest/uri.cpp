@@ -42,7 +42,10 @@ tl::expected<SourceUri, std::string> parse_source_uri(const std::string& text) {
   uri.text = text;
   uri.scheme = text.substr(0, colon);
   uri.path = text.substr(colon + 1, question == std::string::npos ? question : question - colon - 1);
-  if (uri.path.empty()) return tl::unexpected("source '" + text + "': nothing between ':' and '?'");
+  if (uri.path.empty()) {
+    return tl::unexpected("source '" + text + "': nothing between ':' and '?'" +
+                          (uri.scheme == "bag" ? " (gvom-map --bag PATH fills that in)" : ""));
+  }
   if (question != std::string::npos) {
     auto parsed = parse_options(std::string_view(text).substr(question + 1), uri);
     if (!parsed) return tl::unexpected(parsed.error());

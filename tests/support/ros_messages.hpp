@@ -63,7 +63,7 @@ struct CloudLayout {
   std::vector<CloudField> fields;
   std::uint32_t point_step = 0;
   std::uint32_t height = 1;
-  std::uint32_t row_padding = 0;  ///< Bytes behind each row.
+  std::uint32_t row_padding = 0;  ///< Bytes behind each row; below 0 (wrapped): that are missing.
   bool big_endian = false;        ///< Of the data.
 };
 
