@@ -116,8 +116,8 @@ std::vector<VehicleRow> process_rows() {
        [](V& c) -> Field { return &c.ipc.max_planners; }},
 
       {{"odometry.source", "", Rule::text, 0, 0, kOptional,
-        "tum:FILE, euroc:FILE or kitti:FILE?times=FILE, relative to the working directory; empty: by the "
-        "command line"},
+        "tum:FILE, euroc:FILE, kitti:FILE?times=FILE, bag:PATH?topic=TOPIC or bag:PATH?tf=PARENT/CHILD, "
+        "relative to the working directory; empty: by the command line"},
        [](V& c) -> Field { return &c.odometry.source; }},
       {{"odometry.timeout_s", "s", Rule::range, 0.01, 60, kOptional,
         "a live sweep waits this long for the odometry that brackets it (R3)"},

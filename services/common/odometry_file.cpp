@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "services/common/line_reader.hpp"
+#include "services/common/odometry_bag.hpp"
 #include "services/common/odometry_lines.hpp"
 #include "services/common/stamps.hpp"
 
@@ -147,12 +148,15 @@ tl::expected<std::vector<StampedPose>, std::string> read_odometry_source(const s
   const std::string file = source.substr(scheme.size());
   if (scheme == kTum.scheme && !file.empty()) return read_stamped(file, kTum, warnings);
   if (scheme == kEuroc.scheme && !file.empty()) return read_stamped(file, kEuroc, warnings);
+  if (scheme == "bag:") return read_bag_odometry(source, warnings);
   const std::string option = "?times=";
   const std::size_t times = file.rfind(option);
   if (scheme == kKitti && times != std::string::npos)
     return read_kitti(file.substr(0, times), file.substr(times + option.size()), warnings);
-  return tl::make_unexpected("odometry source '" + source +
-                             "': expected tum:FILE, euroc:FILE or kitti:FILE?times=FILE");
+  return tl::make_unexpected(
+      "odometry source '" + source +
+      "': expected tum:FILE, euroc:FILE, kitti:FILE?times=FILE, bag:PATH?topic=TOPIC or "
+      "bag:PATH?tf=PARENT/CHILD");
 }
 
 }  // namespace gvom::services

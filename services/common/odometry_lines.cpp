@@ -64,18 +64,6 @@ tl::expected<std::vector<double>, std::string> parse_numbers(const Words& words,
   return values;
 }
 
-PoseResult make_pose(std::int64_t stamp_ns, const std::vector<double>& position_m,
-                     Eigen::Quaterniond rotation) {
-  const double norm = rotation.norm();
-  if (!(std::abs(norm - 1.0) <= kRotationTolerance))
-    return unexpected("expected a unit quaternion, found one of norm " + std::to_string(norm));
-  StampedPose pose;
-  pose.stamp_ns = stamp_ns;
-  pose.T_odom_base.translation_m = {position_m[0], position_m[1], position_m[2]};
-  pose.T_odom_base.rotation = rotation.normalized();
-  return pose;
-}
-
 std::optional<std::int64_t> parse_whole(std::string_view word) {
   std::int64_t value = 0;
   const auto parsed = std::from_chars(word.data(), word.data() + word.size(), value);
@@ -91,6 +79,15 @@ bool has_nanoseconds(std::string_view word) {
 
 }  // namespace
 
+PoseResult make_pose(std::int64_t stamp_ns, const Eigen::Vector3d& position_m,
+                     const Eigen::Quaterniond& rotation) {
+  if (!position_m.allFinite()) return unexpected("expected a finite position");
+  const double norm = rotation.norm();
+  if (!(std::abs(norm - 1.0) <= kRotationTolerance))
+    return unexpected("expected a unit quaternion, found one of norm " + std::to_string(norm));
+  return StampedPose{stamp_ns, {position_m, rotation.normalized()}};
+}
+
 PoseResult parse_tum_line(const std::string& line) {
   const Words words = split(line, ' ');
   if (words.size() != kTumColumns) {
@@ -100,7 +97,8 @@ PoseResult parse_tum_line(const std::string& line) {
   if (!stamp_ns) return unexpected("expected a time in seconds, found '" + std::string(words[0]) + "'");
   const auto v = parse_numbers(words, 1, kTumColumns);
   if (!v) return unexpected(v.error());
-  return make_pose(*stamp_ns, *v, Eigen::Quaterniond((*v)[6], (*v)[3], (*v)[4], (*v)[5]));
+  return make_pose(*stamp_ns, {(*v)[0], (*v)[1], (*v)[2]},
+                   Eigen::Quaterniond((*v)[6], (*v)[3], (*v)[4], (*v)[5]));
 }
 
 PoseResult parse_euroc_line(const std::string& line) {
@@ -114,7 +112,8 @@ PoseResult parse_euroc_line(const std::string& line) {
     return unexpected("expected a time in whole nanoseconds, found '" + std::string(words[0]) + "'");
   const auto v = parse_numbers(words, 1, kTumColumns);
   if (!v) return unexpected(v.error());
-  return make_pose(*stamp_ns, *v, Eigen::Quaterniond((*v)[3], (*v)[4], (*v)[5], (*v)[6]));
+  return make_pose(*stamp_ns, {(*v)[0], (*v)[1], (*v)[2]},
+                   Eigen::Quaterniond((*v)[3], (*v)[4], (*v)[5], (*v)[6]));
 }
 
 PoseResult parse_kitti_line(const std::string& line) {
@@ -152,8 +151,8 @@ bool may_head_euroc(const std::string& comment) {
 std::string recognised_format(const std::string& header, const std::string& line) {
   const std::string& first = header.empty() ? line : header;
   if (first.find("#ROSBAG") == 0) return "this is a ROS 1 bag; export its odometry as TUM";
-  if (line.find("SQLite format 3") == 0) return "this is a ROS 2 bag (SQLite); export its odometry as TUM";
-  if (line.find("\x89MCAP") == 0) return "this is an MCAP recording; export its odometry as TUM";
+  if (line.find("SQLite format 3") == 0) return "this is a ROS 2 bag: use bag:FILE?topic=TOPIC";
+  if (line.find("\x89MCAP") == 0) return "this is an MCAP recording: use bag:FILE?topic=TOPIC";
   const Words columns = split(line, ',');
   if (is_euroc_header(header) || (columns.size() >= kTumColumns && has_nanoseconds(columns[0])))
     return "this looks like EuRoC csv: use euroc:FILE";

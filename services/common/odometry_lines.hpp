@@ -1,6 +1,7 @@
 // A pose as one line of a recording gives it, in each of the formats that are read.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include <tl/expected.hpp>
@@ -10,6 +11,11 @@
 namespace gvom::services {
 
 using PoseResult = tl::expected<StampedPose, std::string>;
+
+/// A quaternion whose norm is off by at most 1e-3 is normalised; any other, and what is not finite, is an
+/// error.
+PoseResult make_pose(std::int64_t stamp_ns, const Eigen::Vector3d& position_m,
+                     const Eigen::Quaterniond& rotation);
 
 /// `t x y z qx qy qz qw`, seconds and metres. Errors of all three: a number is missing or none or not finite,
 /// a rotation that is none. Quaternions whose norm is off by at most 1e-3 are normalised.

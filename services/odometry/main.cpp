@@ -24,8 +24,10 @@ struct Options {
 };
 
 void add_options(CLI::App& app, Options& options) {
-  app.add_option("--source", options.source,
-                 "instead of odometry.source: tum:FILE, euroc:FILE or kitti:FILE?times=FILE")
+  app.add_option(
+         "--source", options.source,
+         "instead of odometry.source: tum:FILE, euroc:FILE, kitti:FILE?times=FILE, bag:PATH?topic=TOPIC or "
+         "bag:PATH?tf=PARENT/CHILD")
       ->type_name("URI");
   app.add_option("--rate", options.rate,
                  "times the recorded pace, or max: as fast as the slowest reader takes it, losing nothing")

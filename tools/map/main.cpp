@@ -191,10 +191,11 @@ int main(int argc, char** argv) {
   gvom::services::Cli cli("gvom-map", "Maps recordings in one process: a folder of layers after each sweep.");
   Options options;
   cli.app().add_option("--source", options.sources, "NAME=URI: the recording of one of the vehicle's lidars");
-  cli.app().add_option(
-      "--odometry", options.odometry,
-      "tum:FILE, euroc:FILE, kitti:FILE?times=FILE, or static: the vehicle stands at the origin "
-      "(default: odometry.source)");
+  cli.app().add_option("--odometry", options.odometry,
+                       "tum:FILE, euroc:FILE, kitti:FILE?times=FILE, bag:PATH?topic=TOPIC, "
+                       "bag:PATH?tf=PARENT/CHILD, or static: "
+                       "the vehicle stands at the origin "
+                       "(default: odometry.source)");
   cli.app().add_option("--out", options.out, "folder for the maps, 000000 and up");
   cli.app()
       .add_option("--mcap", options.mcap, "one file of the maps for Foxglove, as gvom-bridge records them")

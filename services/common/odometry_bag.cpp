@@ -1,0 +1,179 @@
+#include "services/common/odometry_bag.hpp"
+
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "services/common/bag/bag_reader.hpp"
+#include "services/common/odometry_lines.hpp"
+#include "services/common/odometry_tf.hpp"
+#include "services/common/ros/incoming.hpp"
+#include "services/common/stamps.hpp"
+
+namespace gvom::services {
+namespace {
+
+using Poses = tl::expected<std::vector<StampedPose>, std::string>;
+using Result = tl::expected<void, std::string>;
+
+const std::string kScheme = "bag:";
+const std::string kStaticTopic = "/tf_static";
+
+struct BagSource {
+  std::string path;
+  std::optional<std::string> topic;
+  std::optional<std::pair<std::string, std::string>> tf;  // parent, child
+};
+
+tl::expected<BagSource, std::string> parse(const std::string& source) {
+  const auto wrong = [&](const std::string& what) {
+    return tl::unexpected("odometry source '" + source + "': " + what);
+  };
+  const std::string usage = "expected bag:PATH?topic=TOPIC or bag:PATH?tf=PARENT/CHILD";
+  const std::size_t question = source.find('?');
+  BagSource out;
+  out.path = source.substr(kScheme.size(), question - kScheme.size());
+  if (out.path.empty()) return wrong("no path in it (gvom-map --bag PATH fills that in)");
+  for (std::size_t at = question; at < source.size();) {
+    const std::size_t end = std::min(source.find('&', at + 1), source.size());
+    const std::string option = source.substr(at + 1, end - at - 1);
+    const std::size_t slash = option.rfind('/');
+    if (option.compare(0, 6, "topic=") == 0 && option.size() > 6 && !out.topic) {
+      out.topic = option.substr(6);
+    } else if (option.compare(0, 3, "tf=") == 0 && slash != std::string::npos && slash > 3 &&
+               slash + 1 < option.size() && !out.tf) {
+      out.tf.emplace(option.substr(3, slash - 3), option.substr(slash + 1));
+    } else {
+      return wrong("'" + option + "': " + usage);
+    }
+    at = end;
+  }
+  if (!out.topic && !out.tf) return wrong(usage);
+  return out;
+}
+
+/// Poses in order of time, and how many were left out for which reason.
+class Collector {
+ public:
+  explicit Collector(std::string name) : name_(std::move(name)) {}
+
+  void add(const PoseResult& pose, std::uint64_t message) {
+    if (!pose) return leave_out("", message, pose.error());
+    if (!poses_.empty() && pose->stamp_ns <= poses_.back().stamp_ns) {
+      return leave_out(" that do not go on in time (a looped bag?)", message,
+                       stamp_text(pose->stamp_ns) + " s after " + stamp_text(poses_.back().stamp_ns) + " s");
+    }
+    poses_.push_back(*pose);
+  }
+
+  void leave_out(const std::string& kind, std::uint64_t message, const std::string& reason) {
+    const std::string text = "message " + std::to_string(message) + ": " + reason;
+    ++left_out_.try_emplace(kind, Left{0, text}).first->second.count;
+  }
+
+  Poses take(std::vector<std::string>& warnings) {
+    const std::string first = left_out_.empty() ? "" : ": " + left_out_.begin()->second.first;
+    if (poses_.empty()) return tl::unexpected(name_ + ": no pose in it" + first);
+    for (const auto& [kind, left] : left_out_) {
+      warnings.push_back(name_ + ": left out " + std::to_string(left.count) +
+                         (left.count == 1 ? " pose" : " poses") + kind + "; the first: " + left.first);
+    }
+    return std::move(poses_);
+  }
+
+ private:
+  struct Left {
+    std::uint64_t count;
+    std::string first;
+  };
+
+  std::string name_;
+  std::vector<StampedPose> poses_;
+  std::map<std::string, Left> left_out_;
+};
+
+tl::expected<bag::BagReader, std::string> open(const std::string& path,
+                                               const std::vector<std::string>& topics,
+                                               const std::string& type) {
+  auto reader = bag::BagReader::open(path, topics);
+  if (!reader) return reader;
+  for (const std::string& name : topics) {
+    const bag::Topic& topic = *reader->find(name).front();
+    if (topic.type != type || topic.encoding != "cdr")
+      return tl::unexpected(path + " " + name + ": is of type " + topic.type + " in " + topic.encoding +
+                            "; " + type + " in cdr is needed");
+  }
+  return reader;
+}
+
+Poses read_topic(const BagSource& source, std::vector<std::string>& warnings) {
+  auto reader = open(source.path, {*source.topic}, "nav_msgs/msg/Odometry");
+  if (!reader) return tl::unexpected(reader.error());
+  Collector poses(source.path + " " + *source.topic);
+  std::optional<std::string> child;
+  bag::Message message;
+  while (reader->next(message)) {
+    ros::OdometryIn odometry;
+    if (const auto read = ros::read_odometry(message.data, odometry); !read) {
+      poses.leave_out("", message.number, read.error());
+      continue;
+    }
+    if (!child) child = std::string(odometry.child_frame_id);
+    if (*child != odometry.child_frame_id) {
+      poses.leave_out(" of another frame", message.number,
+                      std::string(odometry.child_frame_id) + ", not " + *child);
+      continue;
+    }
+    const auto& p = odometry.position_m;
+    const auto& q = odometry.orientation_xyzw;
+    poses.add(make_pose(odometry.header.stamp_ns, {p[0], p[1], p[2]}, {q[3], q[0], q[1], q[2]}),
+              message.number);
+  }
+  warnings.insert(warnings.end(), reader->warnings().begin(), reader->warnings().end());
+  return poses.take(warnings);
+}
+
+/// Twice through the bag: what links there are, then the poses.
+Poses read_tf(const BagSource& source, std::vector<std::string>& warnings) {
+  const std::string topic = source.topic.value_or("/tf");
+  const std::string name = source.path + " " + topic;
+  const std::string type = "tf2_msgs/msg/TFMessage";
+  std::vector<std::string> topics{topic};
+  auto reader = open(source.path, topics, type);
+  if (!reader) return tl::unexpected(reader.error());
+  if (!reader->find(kStaticTopic).empty() && topic != kStaticTopic) {
+    topics.push_back(kStaticTopic);
+    reader = open(source.path, topics, type);
+    if (!reader) return tl::unexpected(reader.error());
+  }
+  Collector poses(name);
+  TfLinks links;
+  bag::Message message;
+  std::vector<ros::TransformIn> transforms;
+  while (reader->next(message)) {
+    const auto read = ros::read_transforms(message.data, transforms);
+    if (!read) poses.leave_out("", message.number, read.error());
+    for (const ros::TransformIn& transform : transforms)
+      if (read) links.see(transform);
+  }
+  auto chain = links.chain(source.tf->first, source.tf->second);
+  if (!chain) return tl::unexpected(name + ": " + chain.error());
+  reader->rewind();
+  while (reader->next(message)) {
+    if (!ros::read_transforms(message.data, transforms)) continue;  // counted before
+    for (const ros::TransformIn& transform : transforms)
+      if (chain->is_moving(transform)) poses.add(chain->pose_by(transform), message.number);
+  }
+  warnings.insert(warnings.end(), reader->warnings().begin(), reader->warnings().end());
+  return poses.take(warnings);
+}
+
+}  // namespace
+
+Poses read_bag_odometry(const std::string& source, std::vector<std::string>& warnings) {
+  const auto parsed = parse(source);
+  if (!parsed) return tl::unexpected(parsed.error());
+  return parsed->tf ? read_tf(*parsed, warnings) : read_topic(*parsed, warnings);
+}
+
+}  // namespace gvom::services
