@@ -23,6 +23,8 @@ struct Options {
   std::uint64_t count = 0;
   bool dry_run = false;
   bool keys = false;
+  std::string bag;
+  std::string metadata;
   ctl::MetricsOptions metrics;
 };
 
@@ -68,12 +70,21 @@ void add_commands(CLI::App& app, Options& options) {
   add_config(*reload, options, false);
   reload->add_flag("--dry-run", options.dry_run, "say who would be restarted, and end");
   reload->add_flag("--keys", options.keys, "say which key concerns whom, and end");
+  auto* const bag =
+      app.add_subcommand("bag",
+                         "what is in a ROS 2 bag: topics, rates, clocks against each other, and the "
+                         "lines of a vehicle's file that map it");
+  bag->add_option("PATH", options.bag, "a folder, .db3 or .mcap")->required();
+  bag->add_option("--metadata", options.metadata,
+                  "write the Ouster metadata that is in the bag, and nothing else")
+      ->type_name("FILE.json");
   app.footer(
       "Examples:\n"
       "  gvomctl status                          is all well on this vehicle?\n"
       "  gvomctl status --json | jq .problems    the same for a script\n"
       "  gvomctl check my.yaml                   will this file work here?\n"
-      "  gvomctl reload --dry-run                whom does my change of the file concern?");
+      "  gvomctl reload --dry-run                whom does my change of the file concern?\n"
+      "  gvomctl bag FOLDER                      what is in this bag, and how is it mapped?");
   app.require_subcommand(1);
 }
 
@@ -137,5 +148,6 @@ int main(int argc, char** argv) {
   services::init_logging("gvomctl");
   const std::string command = app.get_subcommands().front()->get_name();
   if (command == "reload") return reload(options);
+  if (command == "bag") return ctl::show_bag(options.bag, options.metadata);
   return command == "check" ? check(options) : watch(command, options);
 }
