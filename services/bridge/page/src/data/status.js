@@ -1,0 +1,66 @@
+/** What /gvom/status says, with all that may be missing filled in, and what of it is not as it should be, in words. */
+import { STALE_S } from './age.js';
+
+const number = (value) => (Number.isFinite(value) ? value : null);
+
+/** Entries of an object, or of an array of objects with a name. */
+function named(list) {
+  if (Array.isArray(list)) return list.map((value) => [String(value.name ?? ''), value]);
+  return Object.entries(list ?? {});
+}
+
+function process_of(json) {
+  return {
+    name: String(json.name ?? 'unnamed'),
+    state: String(json.state ?? 'unknown'),
+    reason: String(json.reason ?? ''),
+    rate_hz: number(json.rate_hz),
+    heard_s: number(json.health_age_s ?? json.heard_s),
+    data_s: number(json.data_age_s),
+    restarts: number(json.restarts),
+    memory_bytes: number(json.memory_bytes),
+    stages: named(json.stages).map(([name, stage]) => ({
+      name, p50_ms: number(stage.p50_ms), p99_ms: number(stage.p99_ms), max_ms: number(stage.max_ms),
+    })),
+    counters: named(json.counters).map(([name, value]) => [name, number(value?.value ?? value)]),
+    drops: named(json.drops).map(([name, drop]) => [name, number(drop?.count ?? drop), number(drop?.per_s)]),
+  };
+}
+
+function lidar_of([name, json]) {
+  return {
+    name,
+    missing: json.missing === true,
+    unknown: json.unknown === true,
+    age_s: number(json.age_s),
+    seen_fraction: number(json.columns_seen_fraction),
+  };
+}
+
+function problems_of({ processes, lidars, layers_age_s }) {
+  const problems = processes
+    .filter(({ state }) => state !== 'ok' && state !== 'unknown')
+    .map(({ name, state, reason }) => `${name} is ${state}${reason ? `: ${reason}` : ''}`);
+  for (const { name, missing, unknown } of lidars) {
+    if (unknown) problems.push(`lidar ${name} is not in gvom-fusion's configuration: its maps are not taken`);
+    else if (missing) problems.push(`lidar ${name} is missing in the layers`);
+  }
+  if (layers_age_s !== null && layers_age_s > STALE_S)
+    problems.push(`the newest layers are ${layers_age_s.toFixed(1)} s old`);
+  return problems;
+}
+
+/** @param {object} json as /gvom/status brings it */
+export function status_of(json) {
+  const status = {
+    vehicle: String(json.vehicle ?? ''),
+    version: String(json.version ?? ''),
+    processes: (json.processes ?? []).map(process_of),
+    lidars: named(json.lidars ?? json.layers?.lidars).map(lidar_of),
+    layers_age_s: number(json.layers?.age_s ?? json.layers_age_s),
+    odometry_age_s: number(json.odometry?.age_s ?? json.odometry_age_s),
+  };
+  status.problems = json.problems ?? problems_of(status);
+  status.missing = status.lidars.filter(({ missing }) => missing).map(({ name }) => name);
+  return status;
+}
