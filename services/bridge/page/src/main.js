@@ -1,0 +1,124 @@
+/** The page: takes what the bridge sends, draws it, and says how old it is. */
+import '@fontsource-variable/inter/wght.css';
+import './style.css';
+import { Feed, clock_s } from './feed.js';
+import { show_age, show_notice } from './panel/age_readout.js';
+import { find } from './panel/dom.js';
+import { show_health, show_summary } from './panel/health.js';
+import { make_key, show_layers, show_note, show_range } from './panel/legend.js';
+import { Scrubber } from './panel/scrubber.js';
+import { start_theme } from './panel/theme.js';
+import { reason_of, seconds, worth_of } from './panel/words.js';
+import { Scene } from './view/scene.js';
+
+const TICK_MS = 100;
+const HEALTH_TICKS = 10;
+const PHONE_PX = 820;
+const BACKGROUND = { dark: '#14181c', light: '#e9eaec' };
+const NO_VALUE = { dark: '#5b6066', light: '#9aa0a6' };
+const TITLES = { none: 'No map', stale: 'The map is old', silent: 'No map' };
+
+/** Where the bridge is: this page's own server, or ?server=HOST:PORT. */
+function bridge_url() {
+  const server = new URLSearchParams(location.search).get('server') ?? location.host;
+  return `${location.protocol === 'https:' ? 'wss' : 'ws'}://${server}`;
+}
+
+const shows = { obstacles: true, ways: true, voxels: false };
+const is_phone = () => window.innerWidth < PHONE_PX;
+const scene = new Scene(find('scene'), () => find('scene').focus());
+const feed = new Feed(bridge_url(), { on_map: show_live, on_status: () => show_summary(feed.status) });
+const scrubber = new Scrubber(feed.history, show_at);
+let layer = 'height';
+let layers_offered = '';
+
+/** Obstacles have their height from the voxels; on a phone those come only when they are asked for. */
+function choose_topics() {
+  feed.set_wanted(document.hidden, shows.voxels || (shows.obstacles && !is_phone()));
+}
+
+function show_live() {
+  if (scrubber.time_s === null) scene.show(feed.view());
+  const offered = feed.map.names.join();
+  if (offered === layers_offered) return;
+  layers_offered = offered;
+  show_layers(feed.map.names, layer);
+}
+
+function show_at(time_s) {
+  const entry = time_s === null ? null : feed.history.at(time_s);
+  const view = entry ? entry.value.view : feed.map && feed.view();
+  if (view) scene.show(view);
+}
+
+function tick_age(now_s) {
+  const age_s = feed.age.age_s(now_s);
+  const worth = worth_of(age_s, feed.age.silent_s(now_s));
+  if (scrubber.time_s !== null) {
+    const back_s = now_s - scrubber.time_s;
+    show_age('past', back_s, 0);
+    show_notice('', '');
+    find('past').hidden = false;
+    find('past').textContent = `Looking back ${seconds(back_s)}${worth === 'fresh' ? '' : ', and no fresh map comes'}`;
+    return;
+  }
+  find('past').hidden = true;
+  show_age(worth, age_s, feed.age.rate_hz(now_s));
+  if (worth === 'fresh') show_notice('', '');
+  else show_notice(worth === 'none' ? 'No map yet' : `${TITLES[worth]}: ${seconds(age_s)}`, reason_of(feed.circumstances(now_s)));
+}
+
+let ticks = 0;
+function tick() {
+  const now_s = clock_s();
+  tick_age(now_s);
+  scrubber.update(now_s);
+  if (ticks++ % HEALTH_TICKS) return;
+  show_health(feed.status, now_s - feed.status_at_s);
+  show_range(layer, scene.ground.range);
+  show_note(Boolean(scene.view?.tops), scene.shows.voxels ? scene.voxels.left_out ?? 0 : 0);
+}
+
+let drawn_ms = performance.now();
+function draw(now_ms) {
+  scene.draw(Math.min(0.1, (now_ms - drawn_ms) / 1000), now_ms);
+  drawn_ms = now_ms;
+  requestAnimationFrame(draw);
+}
+
+function choose_camera(mode) {
+  scene.camera.set_mode(mode);
+  for (const button of find('cameras').children) button.setAttribute('aria-pressed', String(button.dataset.mode === mode));
+}
+
+function start() {
+  start_theme((is_dark) => {
+    const theme = is_dark ? 'dark' : 'light';
+    scene.set_colours(BACKGROUND[theme], NO_VALUE[theme]);
+  });
+  make_key(shows, (what, is_shown) => {
+    shows[what] = is_shown;
+    scene.set_shown(what, is_shown);
+    choose_topics();
+  });
+  find('layer').addEventListener('change', ({ target }) => {
+    layer = target.value;
+    scene.set_layer(layer);
+    show_range(layer, scene.ground.range);
+  });
+  for (const button of find('cameras').children) button.addEventListener('click', () => choose_camera(button.dataset.mode));
+  choose_camera('follow');
+  find('open-health').addEventListener('click', ({ currentTarget }) => {
+    const is_open = document.body.classList.toggle('health-open');
+    currentTarget.setAttribute('aria-expanded', String(is_open));
+  });
+  document.addEventListener('visibilitychange', choose_topics);
+  new ResizeObserver(([{ contentRect }]) => scene.resize(contentRect.width, contentRect.height)).observe(find('scene'));
+  show_summary(null);
+  choose_topics();
+  setInterval(tick, TICK_MS);
+  requestAnimationFrame(draw);
+}
+
+start();
+window.gvom = { feed, scene };  // for the tests, and for who is curious

@@ -1,0 +1,40 @@
+/** Light, dark, or as the system has it; kept for the next visit. */
+import { find } from './dom.js';
+
+const NEXT = { auto: 'light', light: 'dark', dark: 'auto' };
+const SIGNS = { auto: '◐', light: '☀', dark: '☾' };
+const KEY = 'gvom-theme';
+
+function stored() {
+  try {
+    return localStorage.getItem(KEY) ?? 'auto';
+  } catch {
+    return 'auto';  // a browser that keeps nothing
+  }
+}
+
+function store(theme) {
+  try {
+    localStorage.setItem(KEY, theme);
+  } catch { /* then it is forgotten */ }
+}
+
+/** @param {(is_dark: boolean) => void} on_change called at once, and whenever it changes */
+export function start_theme(on_change) {
+  const system = matchMedia('(prefers-color-scheme: dark)');
+  let theme = stored() in NEXT ? stored() : 'auto';
+  const apply = () => {
+    const is_dark = theme === 'auto' ? system.matches : theme === 'dark';
+    document.documentElement.dataset.theme = is_dark ? 'dark' : 'light';
+    find('theme').textContent = SIGNS[theme];
+    find('theme').title = `Colours: ${theme}`;
+    on_change(is_dark);
+  };
+  system.addEventListener('change', apply);
+  find('theme').addEventListener('click', () => {
+    theme = NEXT[theme];
+    store(theme);
+    apply();
+  });
+  apply();
+}
