@@ -37,6 +37,22 @@ tl::expected<void, ConfigError> check_frame(const services::VehicleConfig& confi
       ConfigError{config.path, key, "expected the name of a frame, without a slash before it"});
 }
 
+tl::expected<std::set<TopicId>, ConfigError> topics_of(const services::VehicleConfig& config,
+                                                       const std::string& key, const std::string& text) {
+  std::set<TopicId> topics;
+  for (const std::string& word : split_list(text)) {
+    const auto found =
+        std::find_if(kTopics.begin(), kTopics.end(), [&](const Topic& one) { return one.name == word; });
+    if (found == kTopics.end()) {
+      std::string known;
+      for (const Topic& one : kTopics) known += (known.empty() ? "" : ", ") + std::string(one.name);
+      return unknown(config, key, word, known);
+    }
+    topics.insert(found->id);
+  }
+  return topics;
+}
+
 }  // namespace
 
 std::vector<std::string> split_list(const std::string& text) {
@@ -71,18 +87,11 @@ tl::expected<MessageSettings, ConfigError> message_settings(const services::Vehi
 }
 
 tl::expected<std::set<TopicId>, ConfigError> recorded_topics(const services::VehicleConfig& config) {
-  std::set<TopicId> topics;
-  for (const std::string& word : split_list(config.bridge.mcap.topics)) {
-    const auto found =
-        std::find_if(kTopics.begin(), kTopics.end(), [&](const Topic& one) { return one.name == word; });
-    if (found == kTopics.end()) {
-      std::string known;
-      for (const Topic& one : kTopics) known += (known.empty() ? "" : ", ") + std::string(one.name);
-      return unknown(config, "bridge.mcap.topics", word, known);
-    }
-    topics.insert(found->id);
-  }
-  return topics;
+  return topics_of(config, "bridge.mcap.topics", config.bridge.mcap.topics);
+}
+
+tl::expected<std::set<TopicId>, ConfigError> ros2_topics(const services::VehicleConfig& config) {
+  return topics_of(config, "bridge.ros2.topics", config.bridge.ros2.topics);
 }
 
 }  // namespace gvom::bridge

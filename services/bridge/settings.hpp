@@ -27,6 +27,9 @@ tl::expected<MessageSettings, services::ConfigError> message_settings(const serv
 /// `bridge.mcap.topics`; errors likewise.
 tl::expected<std::set<TopicId>, services::ConfigError> recorded_topics(const services::VehicleConfig& config);
 
+/// `bridge.ros2.topics`; errors likewise.
+tl::expected<std::set<TopicId>, services::ConfigError> ros2_topics(const services::VehicleConfig& config);
+
 /// The parts between commas, without blanks around them; empty ones are left out.
 std::vector<std::string> split_list(const std::string& text);
 

@@ -24,6 +24,19 @@ struct McapConfig {
       "/diagnostics,/gvom/status";  ///< Which are recorded, between commas.
 };
 
+/// `bridge.ros2.*`: a node of ROS 2.
+struct Ros2Config {
+  std::string distro;          ///< "humble" or "jazzy", as the others on the network; empty: no ROS 2.
+  int domain = 0;              ///< ROS_DOMAIN_ID, 0 .. 232.
+  std::string node = "/gvom";  ///< Its full name; stands for /gvom in the topics' names.
+  std::string topics =
+      "/gvom/costmap,/gvom/grid_map,/gvom/points,/gvom/voxels,/gvom/plan,/gvom/trajectory,"
+      "/diagnostics";       ///< Which are offered, between commas.
+  std::string interface;    ///< A name or an address; empty: what Cyclone DDS finds.
+  std::string peers;        ///< That multicast does not reach, between commas.
+  std::string config_file;  ///< More of Cyclone DDS's XML; empty: none.
+};
+
 /// `bridge.*`.
 struct BridgeConfig {
   double rate_hz = 10.0;                        ///< Of what is made of layers, at most, 0.1 .. 100.
@@ -33,6 +46,7 @@ struct BridgeConfig {
   std::string points_layers = "slope,roughness,obstacle_density,cost";  ///< Fields of the columns' cloud.
   FoxgloveConfig foxglove;
   McapConfig mcap;
+  Ros2Config ros2;
 };
 
 }  // namespace gvom::bridge

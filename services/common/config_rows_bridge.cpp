@@ -46,6 +46,27 @@ std::vector<VehicleRow> bridge_rows() {
        [](V& c) -> Field { return &c.bridge.mcap.split_mb; }},
       {{"bridge.mcap.topics", "", Rule::text, 0, 0, kOptional, "that are recorded, between commas"},
        [](V& c) -> Field { return &c.bridge.mcap.topics; }},
+
+      {{"bridge.ros2.distro", "", Rule::text, 0, 0, kOptional,
+        "humble or jazzy, as the others on the network; empty: no ROS 2"},
+       [](V& c) -> Field { return &c.bridge.ros2.distro; }},
+      {{"bridge.ros2.domain", "", Rule::range, 0, 232, kOptional, "ROS_DOMAIN_ID"},
+       [](V& c) -> Field { return &c.bridge.ros2.domain; }},
+      {{"bridge.ros2.node", "", Rule::text, 0, 0, kOptional,
+        "the node's full name; stands for /gvom in the topics' names"},
+       [](V& c) -> Field { return &c.bridge.ros2.node; }},
+      {{"bridge.ros2.topics", "", Rule::text, 0, 0, kOptional,
+        "that are offered, between commas; /tf only if nobody else says where the vehicle is"},
+       [](V& c) -> Field { return &c.bridge.ros2.topics; }},
+      {{"bridge.ros2.interface", "", Rule::text, 0, 0, kOptional,
+        "of the network, its name or address; empty: what Cyclone DDS finds"},
+       [](V& c) -> Field { return &c.bridge.ros2.interface; }},
+      {{"bridge.ros2.peers", "", Rule::text, 0, 0, kOptional,
+        "hosts that multicast does not reach, between commas"},
+       [](V& c) -> Field { return &c.bridge.ros2.peers; }},
+      {{"bridge.ros2.config_file", "", Rule::text, 0, 0, kOptional,
+        "more of Cyclone DDS's XML, which comes after ours; empty: none"},
+       [](V& c) -> Field { return &c.bridge.ros2.config_file; }},
   };
 }
 
