@@ -1,9 +1,10 @@
-// gvom-bridge: what is on the bus, for Foxglove, browsers and files.
+// gvom-bridge: what is on the bus, for ROS 2, Foxglove, browsers and files.
 #include <spdlog/spdlog.h>
 
 #include "services/bridge/bridge_node.hpp"
 #include "services/bridge/foxglove_server.hpp"
 #include "services/bridge/mcap_recorder.hpp"
+#include "services/bridge/ros2/open_sink.hpp"
 #include "services/bridge/web.hpp"
 #include "services/common/bus/join.hpp"
 #include "services/common/cli.hpp"
@@ -42,6 +43,9 @@ tl::expected<bridge::Sinks, ConfigError> open_sinks(const services::VehicleConfi
     options.topics = std::move(*topics);
     sinks.push_back(std::make_unique<bridge::McapRecorder>(std::move(options)));
   }
+  auto ros2 = bridge::open_ros2_sink(config);
+  if (!ros2) return tl::unexpected(ros2.error());
+  if (*ros2 != nullptr) sinks.push_back(std::move(*ros2));
   return sinks;
 }
 
@@ -49,10 +53,11 @@ tl::expected<bridge::Sinks, ConfigError> open_sinks(const services::VehicleConfi
 tl::expected<void, ConfigError> check(const services::VehicleConfig& config) {
   if (auto settings = bridge::message_settings(config); !settings) return tl::unexpected(settings.error());
   if (auto topics = bridge::recorded_topics(config); !topics) return tl::unexpected(topics.error());
-  if (config.bridge.foxglove.address.empty() && config.bridge.mcap.folder.empty())
-    return tl::unexpected(
-        ConfigError{config.path, "bridge", "nothing to do: no foxglove.address and no mcap.folder"});
-  return {};
+  const bridge::BridgeConfig& keys = config.bridge;
+  if (keys.foxglove.address.empty() && keys.mcap.folder.empty() && keys.ros2.distro.empty())
+    return tl::unexpected(ConfigError{config.path, "bridge",
+                                      "nothing to do: no foxglove.address, no mcap.folder, no ros2.distro"});
+  return bridge::check_ros2(config);
 }
 
 ExitCode run(const services::VehicleConfig& config, services::Lifecycle& lifecycle) {
@@ -75,8 +80,8 @@ ExitCode run(const services::VehicleConfig& config, services::Lifecycle& lifecyc
 
 int main(int argc, char** argv) {
   services::Lifecycle lifecycle(services::kLeaveWithin);
-  services::Cli cli(kName,
-                    "Sends maps, plans and Health to Foxglove and browsers, and records them as MCAP.");
+  services::Cli cli(
+      kName, "Sends maps, plans and Health to ROS 2, Foxglove and browsers, and records them as MCAP.");
   cli.also_check(check);
   cli.app().footer("Example:\n  gvom-bridge --config vehicle.yaml --set bridge.mcap.folder=recordings");
   const auto config = cli.parse(argc, argv);

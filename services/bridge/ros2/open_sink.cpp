@@ -7,6 +7,11 @@
 
 namespace gvom::bridge {
 
+tl::expected<void, services::ConfigError> check_ros2(const services::VehicleConfig& config) {
+  if (config.bridge.ros2.distro.empty()) return {};
+  return ros2_settings(config).map([](const Ros2Settings&) {});
+}
+
 tl::expected<std::unique_ptr<Sink>, services::ConfigError> open_ros2_sink(
     const services::VehicleConfig& config) {
   if (config.bridge.ros2.distro.empty()) return nullptr;
