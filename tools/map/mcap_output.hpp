@@ -1,13 +1,11 @@
-// gvom-map's maps as one MCAP file: the messages that gvom-bridge sends.
+// gvom-map's maps as one MCAP file.
 #pragma once
 
-#include <map>
 #include <string>
 
 #include <tl/expected.hpp>
 
-#include "services/bridge/message_maker.hpp"
-#include "services/common/mcap/mcap_writer.hpp"
+#include "tools/common/map_file.hpp"
 #include "tools/map/offline.hpp"
 
 namespace gvom::tools {
@@ -21,17 +19,12 @@ class McapOutput {
   /// Layers, which are of now, voxels and the vehicle's pose.
   tl::expected<void, std::string> write(const LayerArrays& layers, MapFuser& fuser);
 
-  tl::expected<void, std::string> close() { return writer_.close(); }
-  [[nodiscard]] std::uint64_t messages() const { return writer_.messages(); }
+  tl::expected<void, std::string> close() { return file_.close(); }
 
  private:
-  McapOutput(mcap::Writer writer, bridge::MessageSettings settings);
-  tl::expected<void, std::string> put(bridge::TopicId id, std::int64_t stamp_ns, const ros::Blob& message);
-  tl::expected<void, std::string> put_voxels(MapFuser& fuser);
+  explicit McapOutput(MapFile file) : file_(std::move(file)) {}
 
-  mcap::Writer writer_;
-  bridge::MessageMaker maker_;
-  std::map<bridge::TopicId, std::uint16_t> channels_;
+  MapFile file_;
   BrickMapStorage voxels_;
 };
 

@@ -87,11 +87,11 @@ tl::expected<std::vector<Row>, std::string> run_campaign(const services::Vehicle
     auto& row = rows[static_cast<std::size_t>(i)];
     const auto world = world_of(options, seed);
     if (!world) return static_cast<void>(row = tl::unexpected(world.error()));
-    Witness witness(options.folder, *world, seed, options.strips);
+    Witness witness(options.keeping, *world, seed, config);
     auto result = run_session(*world, config, session_options(options, seed), witness.onlooker());
     if (!result) return static_cast<void>(row = tl::unexpected(result.error()));
     row = Row{world->name, seed, std::move(*result)};
-    if (auto drawn = witness.finish(config.planner.vehicle, row->result.outcome, story_of(*row)); !drawn)
+    if (auto drawn = witness.finish(row->result.outcome, story_of(*row)); !drawn)
       return static_cast<void>(row = tl::unexpected(drawn.error()));
     const std::lock_guard lock(mutex);
     done(*row);

@@ -25,8 +25,7 @@ struct CampaignOptions {
   sim::Sensor sensor = sim::Sensor::os1_64;
   std::vector<double> noise{0.02, 0.002};  ///< Metres, radians.
   int threads = 1;                         ///< Worlds at a time; they do not change a byte.
-  std::string folder;                      ///< Logs and pictures go there; empty: none.
-  Strips strips = Strips::failed;
+  Keeping keeping;
 };
 
 /// "7" or "1..200".

@@ -67,7 +67,7 @@ tl::expected<CourseRun, std::string> run_course(const services::VehicleConfig& c
   const std::uint64_t seed = options.first_seed;
   const auto world = world_of(options, seed);
   if (!world) return tl::unexpected(world.error());
-  Witness witness(options.folder, *world, seed, Strips::all);
+  Witness witness({options.keeping.folder, Strips::all, options.keeping.mcap}, *world, seed, config);
   const Onlooker witness_looks = witness.onlooker();
   Maps maps{map_of(*world, config.mapper.map.resolution_xy_m), {}};
   auto result = run_session(*world, config, session_options(options, seed),
@@ -82,11 +82,12 @@ tl::expected<CourseRun, std::string> run_course(const services::VehicleConfig& c
   const JudgedMap whole(maps.whole.view(), config.planner);
   CourseRun run{{world->name, seed, std::move(*result)}, {}};
   run.figures = compare_ways(whole, driven_way(run.row.result.log), straight);
-  if (options.folder.empty()) return run;
+  if (options.keeping.folder.empty()) return run;
   const CourseMap& start = maps.at_start ? *maps.at_start : maps.whole;
   const JudgedMap at_start(start.view(), config.planner);
-  return witness.finish(config.planner.vehicle, run.row.result.outcome, story_of(run.row))
-      .and_then([&] { return write_pictures(run, options.folder + "/" + world->name, whole, at_start); })
+  return witness.finish(run.row.result.outcome, story_of(run.row))
+      .and_then(
+          [&] { return write_pictures(run, options.keeping.folder + "/" + world->name, whole, at_start); })
       .map([&] { return std::move(run); });
 }
 

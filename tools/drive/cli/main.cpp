@@ -73,14 +73,13 @@ int drive_live(const services::VehicleConfig& config, const driving::CampaignOpt
   const auto world = driving::world_of(options, seed);
   if (!world) return fail(ExitCode::usage, world.error());
   services::init_logging("gvom-drive");
-  driving::Witness witness(options.folder, *world, seed, options.strips);
-  auto result = driving::run_live(*world, config, driving::session_options(options, seed), options.folder,
-                                  lifecycle, witness.onlooker());
+  driving::Witness witness(options.keeping, *world, seed, config);
+  auto result = driving::run_live(*world, config, driving::session_options(options, seed),
+                                  options.keeping.folder, lifecycle, witness.onlooker());
   if (!result) return to_int(result.error());
   const bool arrived = result->session.outcome == driving::Outcome::arrived;
   const driving::Row row{world->name, seed, std::move(result->session)};
-  if (const auto drawn = witness.finish(config.planner.vehicle, row.result.outcome, driving::story_of(row));
-      !drawn)
+  if (const auto drawn = witness.finish(row.result.outcome, driving::story_of(row)); !drawn)
     return fail(ExitCode::unavailable, drawn.error());
   std::printf("%s\n%s\n", driving::line_of(row).c_str(), result->figures.c_str());
   std::fflush(stdout);
@@ -119,9 +118,12 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--rows", rows_path,
                  "adds a row for each drive to this file as it ends, and drives no world that is in it");
-  auto* out = app.add_option("--out", options.folder, "logs and pictures go there");
+  auto* out = app.add_option("--out", options.keeping.folder, "logs and pictures go there");
   app.add_option("--strip", strips, "of which drives OUT/WORLD-SEED.png is left: none, failed, all")
       ->capture_default_str();
+  app.add_flag("--mcap", options.keeping.mcap,
+               "leaves OUT/WORLD-SEED.mcap, too: maps, plans and poses, for Foxglove")
+      ->needs(out);
   app.add_flag("--figures", figures,
                "of the course: pictures and numbers, the driven way against the waypoints'")
       ->needs(out)
@@ -144,7 +146,7 @@ int main(int argc, char** argv) {
   options.ablation = *taken;
   const auto wanted = driving::find_strips(strips);
   if (!wanted) return fail(ExitCode::usage, "--strip " + wanted.error());
-  options.strips = *wanted;
+  options.keeping.strips = *wanted;
   if (!driving::read_seeds(seeds, options))
     return fail(ExitCode::usage, "--seeds: expected N or FIRST..LAST");
   if (figures) return drive_course(*config, options);

@@ -154,7 +154,8 @@ std::string failures_of(const Rows& rows, const std::string& folder) {
   for (const Figures& figures : failed) {
     const std::string seed = std::to_string(figures.seed);
     text += "seed " + seed + ": " + figures.end + "\n  log: " + folder + "/" + figures.world + "-" + seed +
-            ".csv\n  again: gvom-drive " + rows.making.options + " --seeds " + seed + "\n";
+            ".csv\n  again: gvom-drive " + rows.making.options + " --seeds " + seed +
+            " --out again --strip all --mcap\n";
   }
   return text;
 }

@@ -29,27 +29,34 @@ tl::expected<Strips, std::string> find_strips(const std::string& name) {
   return tl::unexpected(name + ": not known; none, failed or all");
 }
 
-Witness::Witness(const std::string& folder, const CourseWorld& world, std::uint64_t seed, Strips strips)
-    : file_(folder, world.name, seed),
+Witness::Witness(const Keeping& keeping, const CourseWorld& world, std::uint64_t seed,
+                 const services::VehicleConfig& config)
+    : file_(keeping.folder, world.name, seed),
       file_looks_(file_.onlooker()),
       world_(world),
-      picture_(folder + "/" + world.name + "-" + std::to_string(seed) + ".png"),
-      strips_(folder.empty() ? Strips::none : strips) {}
+      vehicle_(config.planner.vehicle),
+      picture_(keeping.folder + "/" + world.name + "-" + std::to_string(seed) + ".png"),
+      strips_(keeping.folder.empty() ? Strips::none : keeping.strips) {
+  if (keeping.mcap && !keeping.folder.empty())
+    mcap_ = McapLog::create(keeping.folder + "/" + world.name + "-" + std::to_string(seed) + ".mcap", config);
+}
 
 Onlooker Witness::onlooker() {
-  if (strips_ == Strips::none) return file_looks_;
   return [this](const Seen& seen, const planner::Plan& plan) {
     if (file_looks_) file_looks_(seen, plan);
-    film_.add(seen, plan);
+    if (strips_ != Strips::none) film_.add(seen, plan);
+    if (mcap_ && *mcap_) (*mcap_)->add(seen, plan);
   };
 }
 
-tl::expected<void, std::string> Witness::finish(const planner::VehicleLimits& vehicle, Outcome outcome,
-                                                const std::string& words) const {
+tl::expected<void, std::string> Witness::finish(Outcome outcome, const std::string& words) {
   const bool failed = outcome != Outcome::arrived;
+  if (mcap_ && !*mcap_) return tl::unexpected(mcap_->error());
+  if (mcap_)
+    if (const auto closed = (*mcap_)->close(); !closed) return closed;
   if (strips_ == Strips::none || (strips_ == Strips::failed && !failed) || film_.empty()) return {};
   const auto frames = failed ? film_.pick_end(kFrames) : film_.pick(kFrames);
-  return draw_strip(frames, surroundings_of(film_, world_, frames), vehicle, {world_.name, words})
+  return draw_strip(frames, surroundings_of(film_, world_, frames), vehicle_, {world_.name, words})
       .write_png(picture_);
 }
 
