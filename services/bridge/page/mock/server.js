@@ -79,7 +79,8 @@ export class MockBridge {
     this.step_s = step_s;
     this.drive = new Drive();
     this.time_s = start_s;
-    this.state = { rear: true, fusion: true, silent: false };
+    this.state = { rear: true, fusion: true };
+    this.refuses = false;
     this.clients = new Set();
     this.http = createServer(serve_files(folder));
     new WebSocketServer({ server: this.http, handleProtocols: () => 'foxglove.websocket.v1' })
@@ -89,7 +90,8 @@ export class MockBridge {
 
   /** @returns {Promise<number>} the port */
   listen(port = 0, address = '127.0.0.1') {
-    this.timer = setInterval(() => this.step(), 1000 * this.step_s);
+    const start_ms = performance.now() - 1000 * this.time_s;
+    this.timer = setInterval(() => this.step((performance.now() - start_ms) / 1000), 1000 * this.step_s);
     return new Promise((resolve) => { this.http.listen(port, address, () => resolve(this.http.address().port)); });
   }
 
@@ -100,6 +102,10 @@ export class MockBridge {
   }
 
   on_connection(socket) {
+    if (this.refuses) {
+      socket.terminate();
+      return;
+    }
     const client = new Client(socket);
     this.clients.add(client);
     socket.on('close', () => this.clients.delete(client));
@@ -117,22 +123,23 @@ export class MockBridge {
     for (const client of this.clients) client.offer(topic, stamp_s, bytes);
   }
 
-  step() {
-    this.time_s += this.step_s;
-    const every = (period_s) => Math.floor(this.time_s / period_s) > Math.floor((this.time_s - this.step_s) / period_s);
-    if (this.state.silent) return;
+  /** @param {number} time_s of the drive, as the wall has it however late this comes */
+  step(time_s) {
+    const due = (period_s) => Math.floor(time_s / period_s) > Math.floor(this.time_s / period_s);
+    const [voxels_due, status_due] = [due(0.5), due(1)];
+    this.time_s = time_s;
     const { drive } = this;
     const stamp_s = 1000 + this.time_s;
     if (this.state.fusion) {
       drive.look(this.time_s, this.state.rear);
       this.last_map_s = this.time_s;
       this.offer('/gvom/layers', stamp_s, () => grid_message(drive.map()));
-      if (every(0.5)) this.offer('/gvom/voxels', stamp_s, () => cloud_message(stamp_s, ['x', 'y', 'z', 'density'], drive.voxels()));
+      if (voxels_due) this.offer('/gvom/voxels', stamp_s, () => cloud_message(stamp_s, ['x', 'y', 'z', 'density'], drive.voxels()));
     }
     this.offer('/tf', stamp_s, () => tf_message(stamp_s, drive.pose()));
     this.offer('/gvom/plan', stamp_s, () => path_message(stamp_s, drive.ahead(40)));
     this.offer('/gvom/trajectory', stamp_s, () => path_message(stamp_s, drive.ahead(9)));
-    if (every(1)) this.offer('/gvom/status', stamp_s, () => Buffer.from(JSON.stringify(this.status())));
+    if (status_due) this.offer('/gvom/status', stamp_s, () => Buffer.from(JSON.stringify(this.status())));
   }
 
   status() {

@@ -8,15 +8,16 @@ import { show_health, show_summary } from './panel/health.js';
 import { make_key, show_layers, show_note, show_range } from './panel/legend.js';
 import { Scrubber } from './panel/scrubber.js';
 import { start_theme } from './panel/theme.js';
-import { reason_of, seconds, worth_of } from './panel/words.js';
+import { past_words, reason_of, title_of, worth_of } from './panel/words.js';
 import { Scene } from './view/scene.js';
 
 const TICK_MS = 100;
 const HEALTH_TICKS = 10;
 const PHONE_PX = 820;
-const BACKGROUND = { dark: '#14181c', light: '#e9eaec' };
-const NO_VALUE = { dark: '#5b6066', light: '#9aa0a6' };
-const TITLES = { none: 'No map', stale: 'The map is old', silent: 'No map' };
+const COLOURS = {
+  dark: { background: '#14181c', no_value: '#5b6066', plan: '#ffffff' },
+  light: { background: '#e9eaec', no_value: '#9aa0a6', plan: '#14181c' },
+};
 
 /** Where the bridge is: this page's own server, or ?server=HOST:PORT. */
 function bridge_url() {
@@ -55,17 +56,16 @@ function tick_age(now_s) {
   const age_s = feed.age.age_s(now_s);
   const worth = worth_of(age_s, feed.age.silent_s(now_s));
   if (scrubber.time_s !== null) {
-    const back_s = now_s - scrubber.time_s;
-    show_age('past', back_s, 0);
+    show_age('past', now_s - scrubber.time_s, 0);
     show_notice('', '');
     find('past').hidden = false;
-    find('past').textContent = `Looking back ${seconds(back_s)}${worth === 'fresh' ? '' : ', and no fresh map comes'}`;
+    find('past').textContent = past_words(now_s - scrubber.time_s, feed.history.at(scrubber.time_s).value.missing, worth);
     return;
   }
   find('past').hidden = true;
   show_age(worth, age_s, feed.age.rate_hz(now_s));
   if (worth === 'fresh') show_notice('', '');
-  else show_notice(worth === 'none' ? 'No map yet' : `${TITLES[worth]}: ${seconds(age_s)}`, reason_of(feed.circumstances(now_s)));
+  else show_notice(title_of(worth, age_s), reason_of(feed.circumstances(now_s)));
 }
 
 let ticks = 0;
@@ -73,10 +73,11 @@ function tick() {
   const now_s = clock_s();
   tick_age(now_s);
   scrubber.update(now_s);
+  feed.connection.watch();
   if (ticks++ % HEALTH_TICKS) return;
   show_health(feed.status, now_s - feed.status_at_s);
   show_range(layer, scene.ground.range);
-  show_note(Boolean(scene.view?.tops), scene.shows.voxels ? scene.voxels.left_out ?? 0 : 0);
+  show_note(Boolean(scene.view?.tops), scene.voxels.mesh.visible ? scene.voxels.left_out : null);
 }
 
 let drawn_ms = performance.now();
@@ -91,11 +92,15 @@ function choose_camera(mode) {
   for (const button of find('cameras').children) button.setAttribute('aria-pressed', String(button.dataset.mode === mode));
 }
 
-function start() {
-  start_theme((is_dark) => {
-    const theme = is_dark ? 'dark' : 'light';
-    scene.set_colours(BACKGROUND[theme], NO_VALUE[theme]);
+/** A button that opens and closes something, on a phone. */
+function make_opener(button, open_class) {
+  find(button).addEventListener('click', ({ currentTarget }) => {
+    currentTarget.setAttribute('aria-expanded', String(document.body.classList.toggle(open_class)));
   });
+}
+
+function start() {
+  start_theme((theme) => scene.set_colours(COLOURS[theme]));
   make_key(shows, (what, is_shown) => {
     shows[what] = is_shown;
     scene.set_shown(what, is_shown);
@@ -108,10 +113,8 @@ function start() {
   });
   for (const button of find('cameras').children) button.addEventListener('click', () => choose_camera(button.dataset.mode));
   choose_camera('follow');
-  find('open-health').addEventListener('click', ({ currentTarget }) => {
-    const is_open = document.body.classList.toggle('health-open');
-    currentTarget.setAttribute('aria-expanded', String(is_open));
-  });
+  make_opener('open-health', 'health-open');
+  make_opener('open-key', 'key-open');
   document.addEventListener('visibilitychange', choose_topics);
   new ResizeObserver(([{ contentRect }]) => scene.resize(contentRect.width, contentRect.height)).observe(find('scene'));
   show_summary(null);

@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 import { MapAge } from '../src/data/age.js';
-import { reason_of, seconds, whole, worth_of } from '../src/panel/words.js';
+import { past_words, reason_of, seconds, title_of, whole, worth_of } from '../src/panel/words.js';
 
 /** Maps at 10 Hz that arrive `delay(t)` after their stamps, from t = 0 up to `end_s`. */
 function fed(end_s, delay = () => 0.05, speed = 1) {
@@ -75,4 +75,12 @@ test('the reason is the one nearest to the page that is known', () => {
 test('numbers as people read them', () => {
   assert.deepEqual([0.034, 12.4, 200, Infinity, null].map(seconds), ['0.03 s', '12 s', '3 min', '–', '–']);
   assert.deepEqual([7, 1234567, null].map(whole), ['7', '1 234 567', '–']);
+});
+
+test('what is over the scene says how old it is', () => {
+  assert.equal(title_of('none', Infinity), 'No map yet');
+  assert.equal(title_of('stale', 0.62), 'The map is 0.62 s old');
+  assert.equal(title_of('silent', 31), 'No map for 31 s');
+  assert.equal(past_words(4.1, ['rear'], 'fresh'), 'Looking back 4.10 s, lidar rear missing then');
+  assert.equal(past_words(12, [], 'silent'), 'Looking back 12 s. No fresh map comes now');
 });

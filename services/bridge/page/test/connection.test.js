@@ -6,7 +6,7 @@ import { Connection } from '../src/wire/connection.js';
 class FakeSocket {
   constructor() { this.sent = []; }
   send(text) { this.sent.push(JSON.parse(text)); }
-  close() { this.onclose(); }
+  close() { this.onclose?.(); }
   say(message) { this.onmessage({ data: JSON.stringify(message) }); }
   data(id, text) {
     const bytes = new Uint8Array(13 + text.length);
@@ -89,4 +89,17 @@ test('a channel that is withdrawn and offered again is subscribed again', (t) =>
   assert.equal(connection.offers('/a'), false);
   sockets[0].say({ op: 'advertise', channels: [{ id: 40, topic: '/a', encoding: 'json' }] });
   assert.deepEqual(sockets[0].sent.at(-1), { op: 'subscribe', subscriptions: [{ id: 2, channelId: 40 }] });
+});
+
+test('a link of which nothing comes for ten seconds is given up and made anew', () => {
+  const { connection, sockets, timers } = connected(['/a']);
+  connection.watch(Date.now() + 5000);
+  assert.equal(connection.connected, true);
+  connection.watch(Date.now() + 11000);
+  connection.watch(Date.now() + 12000);
+  assert.equal(connection.connected, false);
+  assert.equal(timers.length, 1);
+  timers[0].act();
+  assert.equal(sockets.length, 2);
+  connection.close();
 });

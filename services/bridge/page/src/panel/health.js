@@ -80,7 +80,7 @@ export function show_summary(status) {
   button.dataset.problems = String(problems);
   const missing = status?.missing ?? [];
   find('lidars').replaceChildren(...(missing.length
-    ? [mark_of('failed'), element('span', '', `${missing.join(', ')} missing`)] : []));
+    ? [mark_of('failed'), element('span', '', `lidar ${missing.join(', ')} missing`)] : []));
   find('vehicle').textContent = status?.vehicle ?? '';
   document.title = problems ? `▲ ${problems} · gvom` : 'gvom';
 }

@@ -63,9 +63,11 @@ export function make_key(shows, on_switch) {
   find('key').replaceChildren(element('div', 'swatches', ...swatches), element('div', 'switches', ...switches));
 }
 
-/** @param {boolean} heights_known whether voxels say how high obstacles are @param {number} left_out voxels that are not drawn */
+/** @param {boolean} heights_known whether voxels say how high obstacles are @param {number | null} left_out voxels that are not drawn, null: none is */
 export function show_note(heights_known, left_out) {
-  const heights = heights_known ? '' : ` Obstacles are drawn ${NOMINAL_M} m high: turn voxels on for their true height.`;
-  const missing = left_out > 0 ? ` ${left_out} voxels are not drawn.` : '';
-  find('note').textContent = `Lines every 10 m. Paler: remembered, not seen now.${heights}${missing}`;
+  const notes = ['Lines every 10 m. Paler: remembered, not seen now.'];
+  if (!heights_known) notes.push(`Obstacles are drawn ${NOMINAL_M} m high: only voxels know their height.`);
+  if (left_out !== null) notes.push('Voxels: the lighter, the denser.');
+  if (left_out > 0) notes.push(`${left_out} of them are not drawn.`);
+  find('note').textContent = notes.join(' ');
 }

@@ -26,6 +26,7 @@ export class Scrubber {
     const back_s = this.time_s === null ? 0 : Math.max(-this.history.span_s, this.time_s - now_s);
     this.slider.value = String(back_s);
     this.slider.setAttribute('aria-valuetext', back_s === 0 ? 'live' : `${(-back_s).toFixed(0)} seconds back`);
+    find('live').textContent = this.time_s === null ? 'Live' : 'Back to live';
     find('live').setAttribute('aria-pressed', String(this.time_s === null));
     find('kept').textContent = `${this.history.span_s} s · ${this.history.rate_hz.toFixed(1)} maps/s kept`;
     this.draw(now_s);

@@ -19,16 +19,16 @@ function store(theme) {
   } catch { /* then it is forgotten */ }
 }
 
-/** @param {(is_dark: boolean) => void} on_change called at once, and whenever it changes */
+/** @param {(theme: 'dark' | 'light') => void} on_change called at once, and whenever it changes */
 export function start_theme(on_change) {
   const system = matchMedia('(prefers-color-scheme: dark)');
   let theme = stored() in NEXT ? stored() : 'auto';
   const apply = () => {
-    const is_dark = theme === 'auto' ? system.matches : theme === 'dark';
-    document.documentElement.dataset.theme = is_dark ? 'dark' : 'light';
+    const shown = theme !== 'auto' ? theme : system.matches ? 'dark' : 'light';
+    document.documentElement.dataset.theme = shown;
     find('theme').textContent = SIGNS[theme];
     find('theme').title = `Colours: ${theme}`;
-    on_change(is_dark);
+    on_change(shown);
   };
   system.addEventListener('change', apply);
   find('theme').addEventListener('click', () => {

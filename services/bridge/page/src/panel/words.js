@@ -22,6 +22,18 @@ export function worth_of(age_s, silent_s) {
   return age_s > STALE_S ? 'stale' : 'fresh';
 }
 
+/** @param {'none' | 'stale' | 'silent'} worth */
+export function title_of(worth, age_s) {
+  if (worth === 'none') return 'No map yet';
+  return worth === 'silent' ? `No map for ${seconds(age_s)}` : `The map is ${seconds(age_s)} old`;
+}
+
+/** @param {string[]} missing lidars, then @param {'none' | 'fresh' | 'stale' | 'silent'} worth of the newest map, now */
+export function past_words(back_s, missing, worth) {
+  const then = missing.length ? `, lidar ${missing.join(', ')} missing then` : '';
+  return `Looking back ${seconds(back_s)}${then}${worth === 'fresh' ? '' : '. No fresh map comes now'}`;
+}
+
 /**
  * Why there is no fresh map.
  * @param {{connected: boolean, url: string, retry_s: number, offered: boolean, status: object | null,

@@ -2,7 +2,7 @@
 import * as THREE from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 
-const BEHIND_M = { back: 21, up: 13 };
+const BEHIND_M = { back: 20, up: 14 };
 const ABOVE_M = 75;
 const AHEAD_M = 4;         // where a camera that follows looks, before the vehicle
 const SETTLES_S = 0.25;

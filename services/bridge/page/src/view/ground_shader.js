@@ -78,7 +78,7 @@ void main() {
   vec3 base = colour_of(texelFetch(values, cell, 0).r);
   if (shows_obstacles && (flags & 8) != 0 && fract((v_place_m.x + v_place_m.y) * 1.1) < 0.4) base = mix(base, steep, 0.85);
   float light = dot(normalize(v_normal), SUN);
-  vec3 lit = base * (0.52 + 0.74 * max(light, 0.0)) + 0.05 * max(light - 0.6, 0.0);
+  vec3 lit = base * (0.42 + 0.9 * max(light, 0.0)) + 0.05 * max(light - 0.6, 0.0);
   if (visibility == 4) lit = mix(lit, background, 0.5);
   lit = mix(lit, background, 0.22 * lattice());
   float edge = max(abs(v_cell.x / float(size.x) - 0.5), abs(v_cell.y / float(size.y) - 0.5)) * 2.0;

@@ -1,13 +1,14 @@
-/** NEGATIVE columns as shafts: a dark floor, walls where the hole ends, a bright rim. */
+/** NEGATIVE columns as shafts: a dark floor, walls where the hole ends, a bright rim on the ground around. */
 import * as THREE from 'three';
-import { rgb_of } from './colour_map.js';
 import { FLAG, OBSTACLE_COLOURS } from './layers.js';
 
 const LEAST_DEPTH_M = 0.7;
 const RIM_REACH = 4;  // columns, to find ground beside a hole
 const SIDES = [[1, 0], [0, 1], [-1, 0], [0, -1]];
-const TINT = rgb_of(OBSTACLE_COLOURS.hole).map((value) => value / 255);
-const SHADES = { floor: 0.16, low: 0.2, high: 0.75 };
+const TINT = new THREE.Color(OBSTACLE_COLOURS.hole).toArray();  // linear, as three.js takes colours of vertices
+const SHADES = { floor: 0.012, low: 0.012, high: 0.16, rim: 1 };
+const RIM_M = 0.14;
+const RIM_ABOVE_M = 0.06;
 
 /** The mean height of the nearest ground around column i, NaN if there is none near. */
 function rim_m(map, height, flags, i) {
@@ -32,9 +33,7 @@ function rim_m(map, height, flags, i) {
 export class Holes {
   constructor() {
     this.shafts = new THREE.Mesh(new THREE.BufferGeometry(), new THREE.MeshBasicMaterial({ vertexColors: true }));
-    this.rims = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: OBSTACLE_COLOURS.hole }));
-    this.group = new THREE.Group().add(this.shafts, this.rims);
-    this.group.children.forEach((child) => { child.frustumCulled = false; });
+    this.shafts.frustumCulled = false;
   }
 
   /** @param {number} ground_m the height of the vehicle's ground, where a hole has none beside it */
@@ -42,7 +41,7 @@ export class Holes {
     const flags = map.layer('flags') ?? [];
     const height = map.layer('height');
     const delta = map.layer('negative_delta');
-    this.parts = { places: [], colours: [], lines: [] };
+    this.parts = { places: [], colours: [] };
     for (let i = 0; i < flags.length; ++i) {
       if (!(flags[i] & FLAG.negative)) continue;
       const found = rim_m(map, height, flags, i);
@@ -67,11 +66,12 @@ export class Holes {
       const a = [x + h * (dx - dy), y + h * (dy + dx)];
       const b = [x + h * (dx + dy), y + h * (dy - dx)];
       this.quad([[...a, bottom], [...b, bottom], [...b, rim], [...a, rim]], SHADES.low, SHADES.high);
-      this.parts.lines.push(...a, rim + 0.05, ...b, rim + 0.05);
+      const out = ([px, py]) => [px + dx * RIM_M, py + dy * RIM_M, rim + RIM_ABOVE_M];
+      this.quad([[...a, rim + RIM_ABOVE_M], [...b, rim + RIM_ABOVE_M], out(b), out(a)], SHADES.rim, SHADES.rim);
     }
   }
 
-  /** Seen from within the shaft only. */
+  /** Seen from within the shaft, or from above, only. */
   quad([a, b, c, d], low, high) {
     this.parts.places.push(...a, ...b, ...c, ...a, ...c, ...d);
     for (const shade of [low, low, high, low, high, high]) this.parts.colours.push(...TINT.map((value) => value * shade));
@@ -80,9 +80,7 @@ export class Holes {
   end() {
     const floats = (values) => new THREE.Float32BufferAttribute(values, 3);
     this.shafts.geometry.dispose();
-    this.rims.geometry.dispose();
     this.shafts.geometry = new THREE.BufferGeometry()
       .setAttribute('position', floats(this.parts.places)).setAttribute('color', floats(this.parts.colours));
-    this.rims.geometry = new THREE.BufferGeometry().setAttribute('position', floats(this.parts.lines));
   }
 }

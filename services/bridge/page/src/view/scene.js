@@ -39,21 +39,22 @@ export class Scene {
     this.holes = new Holes();
     this.voxels = new Voxels();
     this.vehicle = new Vehicle();
-    this.plan = new Ribbon('#ffffff', 0.35, 0.55);
+    this.plan = new Ribbon('#ffffff', 0.4, 0.7);
     this.trajectory = new Ribbon('#29a9ff', 0.7, 0.95);
     const sun = new THREE.DirectionalLight('#ffffff', 2.4);
     sun.position.set(-0.56, 0.54, 0.9);
     this.three.add(new THREE.HemisphereLight('#ffffff', '#555a60', 1.3), sun, this.ground.mesh, this.obstacles.mesh,
-      this.holes.group, this.voxels.mesh, this.vehicle.group, this.plan.mesh, this.trajectory.mesh);
+      this.holes.shafts, this.voxels.mesh, this.vehicle.group, this.plan.mesh, this.trajectory.mesh);
     this.shows = { obstacles: true, voxels: false, ways: true };
     this.anchor_m = null;
     this.ground.uniforms.steep.value.set(...rgb_of(OBSTACLE_COLOURS.steep).map((value) => value / 255));
     this.dirty = true;
   }
 
-  /** @param {string} background and @param {string} no_value as "#rrggbb" */
-  set_colours(background, no_value) {
+  /** As "#rrggbb": of what is not known, of columns without a value, of the planned way. */
+  set_colours({ background, no_value, plan }) {
     const part = (hex) => rgb_of(hex).map((value) => value / 255);
+    this.plan.mesh.material.color.set(plan);
     this.three.background = new THREE.Color(background);
     this.ground.uniforms.no_value.value.set(...part(no_value));
     for (const { uniforms } of [this.ground.material, this.obstacles.material, this.voxels.material])
@@ -81,7 +82,7 @@ export class Scene {
     this.ground.uniforms.shows_obstacles.value = this.shows.obstacles;
     this.ground.show(map, this.anchor_m);
     this.obstacles.mesh.visible = this.shows.obstacles && !(this.shows.voxels && view.cloud);
-    this.holes.group.visible = this.shows.obstacles;
+    this.holes.shafts.visible = this.shows.obstacles;
     if (this.obstacles.mesh.visible) this.obstacles.show(map, this.anchor_m, view.tops);
     if (this.shows.obstacles) this.holes.show(map, this.anchor_m, ground_m);
     this.voxels.mesh.visible = this.shows.voxels && view.cloud !== null;

@@ -4,15 +4,24 @@ import * as THREE from 'three';
 const LENGTH_M = 3.4;
 const WIDTH_M = 1.7;
 const SIDE = [[-1.7, 0.45], [-1.7, 1.05], [-0.5, 1.1], [-0.15, 1.75], [0.75, 1.75], [1.15, 1.1], [1.7, 0.95], [1.7, 0.45]];
+const SCREENS = [[-0.6, 1.2], [-0.27, 1.7], [0.87, 1.7], [1.2, 1.2]];       // before and behind
+const SIDE_WINDOWS = [[-0.38, 1.2], [-0.12, 1.66], [0.7, 1.66], [0.98, 1.2]];
+const PAINT = '#f6f4ee';
+const GLASS = '#20262c';
 const WHEEL_M = 0.42;
 
-function body() {
-  const outline = new THREE.Shape(SIDE.map(([x, z]) => new THREE.Vector2(x, z)));
-  const geometry = new THREE.ExtrudeGeometry(outline, { depth: WIDTH_M, bevelEnabled: true, bevelSize: 0.06, bevelThickness: 0.06, bevelSegments: 2 });
-  geometry.translate(0, 0, -WIDTH_M / 2);
+/** A solid of that outline (x ahead, z up) and width. */
+function solid(side, width_m, colour, bevel_m) {
+  const outline = new THREE.Shape(side.map(([x, z]) => new THREE.Vector2(x, z)));
+  const geometry = new THREE.ExtrudeGeometry(outline, {
+    depth: width_m, bevelEnabled: bevel_m > 0, bevelSize: bevel_m, bevelThickness: bevel_m, bevelSegments: 2 });
+  geometry.translate(0, 0, -width_m / 2);
   geometry.rotateX(Math.PI / 2);
-  return new THREE.Mesh(geometry, new THREE.MeshLambertMaterial({ color: '#f6f4ee' }));
+  return new THREE.Mesh(geometry, new THREE.MeshLambertMaterial({ color: colour }));
 }
+
+const body = () => solid(SIDE, WIDTH_M, PAINT, 0.06);
+const windows = () => [solid(SCREENS, 0.84 * WIDTH_M, GLASS, 0), solid(SIDE_WINDOWS, WIDTH_M + 0.14, GLASS, 0)];
 
 function wheels() {
   const geometry = new THREE.CylinderGeometry(WHEEL_M, WHEEL_M, 0.34, 20);
@@ -42,7 +51,7 @@ function shadow() {
 
 export class Vehicle {
   constructor() {
-    this.group = new THREE.Group().add(shadow(), body(), ...wheels());
+    this.group = new THREE.Group().add(shadow(), body(), ...windows(), ...wheels());
     this.group.visible = false;
   }
 

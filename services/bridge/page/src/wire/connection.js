@@ -4,6 +4,7 @@ import { reader_of } from './schema.js';
 const PROTOCOLS = ['foxglove.websocket.v1', 'foxglove.sdk.v1'];
 const FIRST_RETRY_MS = 500;
 const LONGEST_RETRY_MS = 5000;
+const DEAD_MS = 10000;
 const MESSAGE_DATA = 1;
 const HEAD_BYTES = 13;
 
@@ -49,7 +50,7 @@ export class Connection {
   close() {
     this.closed = true;
     clearTimeout(this.timer);
-    this.socket?.close();
+    this.socket.close();
   }
 
   forget() {
@@ -62,12 +63,15 @@ export class Connection {
   connect() {
     const socket = this.open_socket(this.url);
     this.socket = socket;
+    this.alive_ms = Date.now();
     socket.binaryType = 'arraybuffer';
     socket.onmessage = ({ data }) => {
       if (socket !== this.socket) return;
+      this.alive_ms = Date.now();
       this.guarded(() => (typeof data === 'string' ? this.on_text(JSON.parse(data)) : this.on_binary(data)));
     };
     socket.onopen = () => {
+      this.alive_ms = Date.now();
       this.connected = true;
       this.retry_ms = FIRST_RETRY_MS;
       this.on_change();
@@ -75,12 +79,24 @@ export class Connection {
     socket.onclose = () => this.on_close();
   }
 
+  /** Gives up a link of which nothing has come for so long; a network that went away says no word of it. */
+  watch(now_ms = Date.now()) {
+    if (now_ms - this.alive_ms < DEAD_MS || this.timer_runs) return;
+    this.socket.onclose = null;
+    this.socket.close();
+    this.on_close();
+  }
+
   on_close() {
     this.forget();
     this.on_change();
     if (this.closed) return;
     this.retry_at_ms = Date.now() + this.retry_ms;
-    this.timer = this.after(this.retry_ms, () => this.connect());
+    this.timer_runs = true;
+    this.timer = this.after(this.retry_ms, () => {
+      this.timer_runs = false;
+      this.connect();
+    });
     this.retry_ms = Math.min(LONGEST_RETRY_MS, 2 * this.retry_ms);
   }
 

@@ -10,16 +10,17 @@ export function launch() {
   return puppeteer.launch({ executablePath: chromium, args, headless: true });
 }
 
-/** @param {'dark' | 'light'} theme @param {boolean} phone 390 x 844 at twice the pixels, else 1600 x 1000 */
-export async function open(browser, url, theme, phone = false) {
+export const DESKTOP = { width: 1600, height: 1000 };
+export const PHONE = { width: 390, height: 844, deviceScaleFactor: 2, isMobile: true, hasTouch: true };
+
+/** @param {'dark' | 'light'} theme @param {object} size of the window, as puppeteer's setViewport() takes it */
+export async function open(browser, url, theme, size) {
   const page = await browser.newPage();
   page.errors = [];
   page.on('pageerror', (error) => page.errors.push(error.message));
   page.on('console', (message) => { if (message.type() === 'error') page.errors.push(message.text()); });
   await page.emulateMediaFeatures([{ name: 'prefers-color-scheme', value: theme }]);
-  await page.setViewport(phone
-    ? { width: 390, height: 844, deviceScaleFactor: 2, isMobile: true, hasTouch: true }
-    : { width: 1600, height: 1000 });
+  await page.setViewport(size);
   await page.goto(url);
   return page;
 }

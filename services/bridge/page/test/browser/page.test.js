@@ -1,0 +1,115 @@
+/** The built page in headless Chromium, against the mock of gvom-bridge. Times are long: a busy machine without a GPU is slow. */
+import assert from 'node:assert/strict';
+import { existsSync } from 'node:fs';
+import test from 'node:test';
+import { fileURLToPath } from 'node:url';
+import { MockBridge } from '../../mock/server.js';
+import { chromium, launch, open, until_map } from './browser.js';
+
+const dist = process.env.GVOM_PAGE ?? fileURLToPath(new URL('../../dist', import.meta.url));
+const lacks = !chromium ? 'Chromium is not here' : !existsSync(`${dist}/index.html`) && 'the page is not built: npm run build';
+const MAP_TOPICS = ['/gvom/layers', '/gvom/plan', '/gvom/trajectory', '/tf'];
+
+const text = (page, selector) => page.$eval(selector, (node) => node.innerText);
+const topics = (bridge) => [...bridge.clients].flatMap((client) => [...client.topics.keys()]).sort();
+
+async function until(holds) {
+  for (const end_ms = Date.now() + 30000; Date.now() < end_ms;) {
+    if (await holds()) return;
+    await new Promise((resolve) => { setTimeout(resolve, 50); });
+  }
+  assert.fail(`not in 30 s: ${holds}`);
+}
+
+test('the page in Chromium', { skip: lacks, timeout: 170000 }, async (t) => {
+  const bridge = new MockBridge(dist, { start_s: 7, step_s: 0.2 });
+  const port = await bridge.listen();
+  const browser = await launch();
+  t.after(async () => {
+    await browser.close();
+    bridge.close();
+  });
+  const page = await open(browser, `http://127.0.0.1:${port}`, 'dark', { width: 900, height: 500 });
+
+  await t.test('shows a fresh map and what is well', async () => {
+    await until_map(page, 'fresh');
+    await until(async () => /All is well/.test(await text(page, '#health')));
+    const drawn = await page.evaluate(() => window.gvom.scene.obstacles.count);
+    assert.ok(drawn > 20, `${drawn} obstacles`);
+    assert.deepEqual(page.errors, []);
+  });
+
+  await t.test('draws the relief: its colours are on the screen', async () => {
+    const colours = await page.evaluate(() => {
+      const { scene } = window.gvom;
+      const gl = scene.renderer.getContext();
+      scene.renderer.render(scene.three, scene.camera.camera);
+      const pixels = new Uint8Array(4 * gl.drawingBufferWidth * gl.drawingBufferHeight);
+      gl.readPixels(0, 0, gl.drawingBufferWidth, gl.drawingBufferHeight, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+      const seen = new Set();
+      for (let i = 0; i < pixels.length; i += 64) seen.add((pixels[i] >> 4) << 8 | (pixels[i + 1] >> 4) << 4 | pixels[i + 2] >> 4);
+      return seen.size;
+    });
+    assert.ok(colours > 40, `${colours} colours`);
+  });
+
+  await t.test('names a missing lidar', async () => {
+    bridge.state.rear = false;
+    await until(async () => /lidar rear missing/.test(await text(page, '#lidars')));
+    await until(async () => /gvom-ingest-rear is degraded: no packets/.test(await text(page, '#health')));
+    bridge.state.rear = true;
+  });
+
+  await t.test('greys out when no map comes, and says why', async () => {
+    bridge.state.fusion = false;
+    await until_map(page, 'silent');
+    await until(async () => /gvom-fusion is failed: has said nothing/.test(await text(page, '#notice')));
+    assert.match(await page.$eval('#scene', (node) => getComputedStyle(node).filter), /grayscale/);
+    bridge.state.fusion = true;
+    await until_map(page, 'fresh');
+  });
+
+  await t.test('looks back, and never calls that fresh', async () => {
+    await page.$eval('#slider', (slider) => {
+      slider.value = '-2';
+      slider.dispatchEvent(new Event('input'));
+    });
+    await until_map(page, 'past');
+    assert.match(await text(page, '#past'), /Looking back \d/);
+    await page.$eval('#live', (button) => button.click());
+    await until_map(page, 'fresh');
+  });
+
+  await t.test('a hidden tab takes the status only', async () => {
+    const other = await browser.newPage();
+    await until(() => topics(bridge).join() === '/gvom/status');
+    await other.close();
+    await page.bringToFront();
+    await until(() => MAP_TOPICS.every((topic) => topics(bridge).includes(topic)));
+    await until_map(page, 'fresh');
+  });
+
+  await t.test('a client that stands still costs the bridge no memory, and shows no old map as fresh', async () => {
+    const most_waiting = { now: 0 };
+    const watch = setInterval(() => {
+      for (const { waiting } of bridge.clients) most_waiting.now = Math.max(most_waiting.now, waiting.size);
+    }, 20);
+    const worth = await page.evaluate(async () => {
+      for (const end_ms = performance.now() + 2500; performance.now() < end_ms;);
+      await new Promise((resolve) => { setTimeout(resolve, 150); });
+      return document.body.dataset.map;
+    });
+    clearInterval(watch);
+    assert.ok(['stale', 'silent'].includes(worth), worth);
+    assert.ok(most_waiting.now <= 6, `${most_waiting.now} messages waited`);
+    await until_map(page, 'fresh');
+  });
+
+  await t.test('says that the bridge is gone, and comes back by itself', async () => {
+    for (const { socket } of bridge.clients) socket.terminate();
+    bridge.refuses = true;
+    await until(async () => /No connection to 127.0.0.1/.test(await text(page, '#notice')));
+    bridge.refuses = false;
+    await until_map(page, 'fresh');
+  });
+});
