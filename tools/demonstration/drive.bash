@@ -22,10 +22,12 @@ demonstrate() {
   start_vehicle
   start_readers
   start gvom-planner "$bin/gvom-planner" "${config[@]}"
+  start_bridge
   start_summary gvom-drive
   local code=0
   await_end gvom-drive || code=$?
   stop_graph
+  keep_recorded
   printf '\n=== the drive\n'
   grep -v '^[0-9][0-9]:' "$logs/gvom-drive.log"
   cat <<END
@@ -33,6 +35,7 @@ demonstrate() {
 === what to look at
   $out/campaign-$seed-$seed.png   the film: the map as the planner saw it, its way, the trajectory that it chose
   $out/campaign-$seed-$seed.csv   a line for each plan
+  $out/demo.mcap                  maps, path and trajectory, for Foxglove
   $out/summary.json, $logs/       figures of the processes, and what they said
 END
   ((code == 0)) || fail "$code" "the vehicle did not arrive"

@@ -1,11 +1,12 @@
 # shellcheck shell=bash disable=SC2154 # set by tools/demo, which sources this
 # The graph's processes, for tools/demo: build, start, stop, and what to say when one ends that should not have.
-# Of the demo: root, bin, logs, out, config, lidars, simulated.
+# Of the demo: root, bin, logs, out, config, lidars, looped, simulated.
 
 declare -A pid_of=()  # the processes that this started and that have not been waited for
 scratch=''            # a folder that goes when the demo ends
+page=http://127.0.0.1:8765
 # In the order in which they are stopped: the broker last, for who still lives when it goes aborts.
-order() { printf '%s\n' gvom-drive gvom-planner gvom-odometry "${lidars[@]/#/gvom-ingest-}" gvom-fusion gvom-snapshot gvom-summary gvom-roudi; }
+order() { printf '%s\n' gvom-drive gvom-planner gvom-odometry "${lidars[@]/#/gvom-ingest-}" gvom-fusion gvom-snapshot gvom-bridge gvom-summary gvom-roudi; }
 
 # In a session of its own, so that a Ctrl-C reaches this script alone, which then stops all in the right order.
 start() {  # start NAME COMMAND...
@@ -70,7 +71,25 @@ build() {  # build TARGET...
   if command -v ccache > /dev/null; then export CMAKE_CXX_COMPILER_LAUNCHER=ccache; fi
   echo "demo: building (the first time takes some minutes)"
   cmake --preset release -DGVOM_TESTS=OFF > "$logs/configure.log" || fail 70 "cmake failed, see $logs/configure.log"
-  cmake --build --preset release --parallel "$(nproc)" --target gvom-roudi gvom-ingest gvom-fusion gvom-summary "$@"
+  cmake --build --preset release --parallel "$(nproc)" --target gvom-roudi gvom-ingest gvom-fusion gvom-bridge gvom-summary "$@"
+  services/bridge/page/build.sh build/share/gvom/page || echo "demo: so $page will have nothing to show" >&2
+}
+
+# Maps, plans and Health for a browser and Foxglove, and as a file. What others may see of it takes no time from the map.
+start_bridge() {
+  local recorded="$out/mcap"
+  rm -rf "$recorded"
+  if [[ -n $looped ]]; then recorded=''; fi
+  start gvom-bridge nice -n 10 "$bin/gvom-bridge" "${config[@]}" --set "bridge.mcap.folder='$recorded'"
+  echo "demo: to watch it: $page (Foxglove: ws://127.0.0.1:8765)"
+}
+
+keep_recorded() {  # the bridge's file, under a name that is easily found
+  local files
+  mapfile -t files < <(compgen -G "$out/mcap/*.mcap")
+  ((${#files[@]} == 1)) || fail 70 "$out/mcap: one file was expected, there are ${#files[@]}"
+  mv "${files[0]}" "$out/demo.mcap"
+  rmdir "$out/mcap"
 }
 
 list_lidars() {

@@ -1,6 +1,6 @@
 # shellcheck shell=bash disable=SC2154 # set by tools/demo, which sources this
 # For tools/demo: a recording, simulated or real, replayed through the graph.
-# Of the demo: root, bin, logs, out, pictures, config, lidars, recording, seconds, rate, simulated, vehicle_file.
+# Of the demo: root, bin, logs, out, pictures, config, lidars, recording, seconds, rate, looped, simulated, vehicle_file.
 
 # The same parameters, vehicle and simulator make the same bytes: then what is there is taken.
 simulate() {
@@ -57,19 +57,22 @@ start_graph() {
   start_readers
   # Drawing must not take time from the map.
   start gvom-snapshot nice -n 10 "$bin/gvom-snapshot" "${config[@]}" --out "$pictures" --every 2
+  start_bridge
   start_summary gvom-snapshot
-  start gvom-odometry "$bin/gvom-odometry" "${config[@]}" --rate "$rate"
+  start gvom-odometry "$bin/gvom-odometry" "${config[@]}" --rate "$rate" ${looped:+--loop}
 }
 
 replay() {
   awk -v rate="$rate" '!/^#/ && NF >= 8 { if (!n++) first = $1; last = $1 }
     END { printf "demo: replaying %.1f s of odometry at rate %s\n", last - first, rate }' "$recording/odometry.tum"
+  if [[ -n $looped ]]; then echo "demo: again and again, until Ctrl-C"; fi
   start_graph
   # gvom-odometry is the clock: it ends when the recording is through and every map of it is fused.
   local code=0
   await_end gvom-odometry || code=$?
   if ((code != 0)); then give_up gvom-odometry "$code"; fi
   stop_graph
+  keep_recorded
   if [[ $rate == max ]]; then
     echo "(--rate max keeps the queues full: these latencies say nothing about a vehicle's)"
   fi
@@ -91,6 +94,8 @@ say_where_to_look() {
   $pictures/montage.png           all layers as they were at the end, north up
   $pictures/NNNNNN-montage.png    the same every 2 s, $count of them
   $pictures/{overview,height,flags,cost,...}.png  one layer each
+  $out/demo.mcap                  the maps, for Foxglove
+  $page           the page, while a demo runs: tools/demo --loop replays until Ctrl-C
   $out/summary.json${simulated:+, $out/truth.json}        the figures above
   $logs/                          what the processes said
 END
