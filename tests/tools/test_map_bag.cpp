@@ -74,7 +74,7 @@ int map(const services::VehicleConfig& config, const tools::MapWriterOptions& op
   auto mapper = tools::OfflineMapper::open(config, config.odometry.source);
   INFO((mapper ? "" : mapper.error().what));
   REQUIRE(mapper.has_value());
-  auto maps = tools::MapWriter::open(options, *mapper, config.mapper.map.size_xy);
+  auto maps = tools::MapWriter::open(options, *mapper, config);
   REQUIRE(maps.has_value());
   tools::MappedSweep sweep;
   while (mapper->next(sweep).value()) REQUIRE(maps->take(sweep).has_value());
@@ -98,13 +98,13 @@ TEST_CASE("a bag's maps are those of the same packets in a pcap, to the byte") {
   const std::string meta = "meta=" + path + "/front.json";
   config.lidars[0].source = "ouster:" + path + "/front.pcap?" + meta;
   config.odometry.source = "tum:" + path + "/odometry.tum";
-  const int maps = map(config, {path + "/a", false, 0, ""});
+  const int maps = map(config, {path + "/a", false, 0, "", ""});
   CHECK(maps >= 3);
 
   config.lidars[0].source = "bag:?topic=/ouster/lidar_packets&" + meta;
   config.odometry.source = "bag:?topic=/odom";
   CHECK(tools::fill_bag(config, path + "/bag") == 2);
-  CHECK(map(config, {path + "/b", false, 0, ""}) == maps);
+  CHECK(map(config, {path + "/b", false, 0, "", ""}) == maps);
   int files = 0;
   for (const auto& entry : fs::recursive_directory_iterator(path + "/a")) {
     if (!entry.is_regular_file()) continue;
@@ -115,7 +115,7 @@ TEST_CASE("a bag's maps are those of the same packets in a pcap, to the byte") {
   }
   CHECK(files == 14 * maps);
 
-  tools::MapWriterOptions rare{path + "/c", false, 0.25, path + "/pictures"};
+  tools::MapWriterOptions rare{path + "/c", false, 0.25, path + "/pictures", ""};
   CHECK(map(config, rare) == 2);  // the first, one after 0.25 s or the last
   CHECK(read_file(path + "/c/000000/cost.npy") == read_file(path + "/a/000000/cost.npy"));
   CHECK(fs::file_size(path + "/pictures/montage.png") > 1000);
