@@ -10,8 +10,7 @@ skip() {
   exit 77
 }
 
-command -v node > /dev/null && command -v npm > /dev/null || skip "node and npm are not here"
-command -v chromium > /dev/null || skip "Chromium is not here"
+for program in node npm chromium; do command -v "$program" > /dev/null || skip "$program is not here"; done
 mkdir -p "$folder"
 cd "$folder"
 rm -rf src mock test scripts dist
