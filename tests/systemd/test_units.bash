@@ -4,7 +4,7 @@
 source "$(dirname "$0")/common.bash"
 
 units=(gvom-roudi.service gvom-fusion.service gvom-ingest@front.service gvom-odometry.service gvom-planner.service
-  gvom-metrics.service)
+  gvom-bridge.service gvom-metrics.service)
 
 expect() {  # expect UNIT PROPERTY VALUE
   [[ $(property "$1" "$2") == "$3" ]] || fail "$1: $2 is $(property "$1" "$2"), not $3"

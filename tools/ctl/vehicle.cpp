@@ -20,7 +20,7 @@ Expected expected_of(const services::VehicleConfig& config) {
     expected.processes.push_back(tools::kIngestPrefix + lidar.name);
   for (const std::string& process : expected.processes)
     expected.process_hashes[process] = services::config_hash(config, process);
-  for (const char* process : {"gvom-odometry", "gvom-planner"})  // where they run
+  for (const char* process : {"gvom-odometry", "gvom-planner", "gvom-bridge"})  // where they run
     expected.process_hashes[process] = services::config_hash(config, process);
   return expected;
 }
