@@ -1,6 +1,7 @@
 #include "services/common/dds/participant.hpp"
 
 #include <algorithm>
+#include <map>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -56,18 +57,46 @@ tl::expected<std::unique_ptr<GraphWriter>, std::string> GraphWriter::open(dds_en
   return made;
 }
 
+/// Cyclone has a domain at most once in a process, and so have we.
+struct Participant::Domains {
+  std::mutex mutex;
+  std::map<int, std::weak_ptr<Participant>> open;
+
+  static Domains& all() {
+    static Domains domains;
+    return domains;
+  }
+};
+
 tl::expected<std::shared_ptr<Participant>, std::string> Participant::open(const ParticipantOptions& options) {
-  std::shared_ptr<Participant> participant(new Participant(options.distro));
+  const auto xml = domain_xml(options.domain);
+  if (!xml) return tl::unexpected("ROS 2: " + xml.error());
+  Domains& domains = Domains::all();
+  const std::lock_guard lock(domains.mutex);
+  std::weak_ptr<Participant>& known = domains.open[options.domain.id];
+  if (auto participant = known.lock()) {
+    if (participant->xml_ == *xml && participant->distro_ == options.distro) return participant;
+    return tl::unexpected("ROS 2: domain " + std::to_string(options.domain.id) +
+                          ": this process is in it already, with other options");
+  }
+  std::unique_ptr<Participant> participant(new Participant(options.distro));
+  participant->xml_ = *xml;
   const auto joined = participant->join(options);
   if (!joined) return tl::unexpected("ROS 2: " + joined.error());
-  return participant;
+  std::shared_ptr<Participant> shared(participant.release(), leave);
+  known = shared;
+  return shared;
+}
+
+/// Nobody opens the domain anew before it is gone.
+void Participant::leave(Participant* participant) {
+  const std::lock_guard lock(Domains::all().mutex);
+  delete participant;
 }
 
 tl::expected<void, std::string> Participant::join(const ParticipantOptions& options) {
   auto node = node_name(options.node);
   if (!node) return tl::unexpected(node.error());
-  const auto xml = domain_xml(options.domain);
-  if (!xml) return tl::unexpected(xml.error());
   take_cyclone_log();
   const CycloneWords words;
   const auto failed = [&](const char* what, dds_return_t code) {
@@ -76,7 +105,7 @@ tl::expected<void, std::string> Participant::join(const ParticipantOptions& opti
                           (said.empty() ? dds_strretcode(code) : said));
   };
   const auto id = static_cast<dds_domainid_t>(options.domain.id);
-  domain_ = dds_create_domain(id, xml->c_str());
+  domain_ = dds_create_domain(id, xml_.c_str());
   if (domain_ == DDS_RETCODE_PRECONDITION_NOT_MET) return failed("this process is in it already", domain_);
   if (domain_ < 0) return failed("Cyclone DDS does not start", domain_);
   const QosPtr qos(dds_create_qos());

@@ -22,7 +22,8 @@ struct ParticipantOptions {
 
 class GraphWriter;
 
-/// At most one for each domain in a process. Writers and readers keep it alive. For any thread.
+/// One for each domain in a process, shared by all who open it; the first one's `node` is its name. Writers
+/// and readers keep it alive. For any thread.
 class Participant {
  public:
   /// Joins the network. Errors: what domain_xml refuses, a domain that this process is in already, an
@@ -44,11 +45,15 @@ class Participant {
   void remove(const Guid& reader_or_writer);
 
  private:
+  struct Domains;
+
   explicit Participant(Distro distro);
+  static void leave(Participant* participant);
   tl::expected<void, std::string> join(const ParticipantOptions& options);
   void tell_graph();
 
   const Distro distro_;
+  std::string xml_;
   std::int32_t domain_ = 0;  // handles of Cyclone's
   std::int32_t participant_ = 0;
   std::mutex mutex_;  // of what follows
