@@ -10,6 +10,7 @@
 #include "services/common/bag/bag_reader.hpp"
 #include "services/common/ros/incoming.hpp"
 #include "services/ingest/packet.hpp"
+#include "services/ingest/packet_messages.hpp"
 
 namespace gvom::ingest {
 
@@ -17,10 +18,8 @@ namespace gvom::ingest {
 /// which it came.
 class BagPackets final : public PacketSource {
  public:
-  enum class Messages { ouster, velodyne };
-
   /// `bag` gives the messages of one topic. `name`: the bag and topic, for warnings. `state` outlives it.
-  BagPackets(bag::BagReader bag, Messages messages, std::string name, SourceState& state);
+  BagPackets(bag::BagReader bag, PacketMessages messages, std::string name, SourceState& state);
 
   /// Messages that are not what their type says are counted as `foreign_packets` and passed over; the first
   /// is told, with its number.
@@ -33,7 +32,7 @@ class BagPackets final : public PacketSource {
   void note_warnings();
 
   bag::BagReader bag_;
-  Messages messages_;
+  PacketMessages messages_;
   std::string name_;
   SourceState& state_;
   std::vector<ros::VelodynePacketIn> scan_;

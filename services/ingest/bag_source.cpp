@@ -61,7 +61,7 @@ SourceResult open_packets(const SourceUri& uri, const SourceOptions& options, co
   auto decoder =
       ouster ? make_ouster_decoder(uri, options, *state) : make_velodyne_decoder(uri, options, *state);
   if (!decoder) return tl::unexpected(decoder.error());
-  const auto messages = ouster ? BagPackets::Messages::ouster : BagPackets::Messages::velodyne;
+  const auto messages = ouster ? PacketMessages::ouster : PacketMessages::velodyne;
   auto packets = std::make_unique<BagPackets>(std::move(reader), messages, name, *state);
   const auto strangers = look_for_sensor(*packets, **decoder);
   if (!strangers) return tl::unexpected(strangers.error());

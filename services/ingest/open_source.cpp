@@ -6,6 +6,7 @@
 #include "services/ingest/packet_sweep_source.hpp"
 #include "services/ingest/pcap_reader.hpp"
 #include "services/ingest/probe.hpp"
+#include "services/ingest/ros2_source.hpp"
 #include "services/ingest/scan_source.hpp"
 #include "services/ingest/udp_receiver.hpp"
 #include "services/ingest/uri.hpp"
@@ -101,10 +102,11 @@ tl::expected<std::unique_ptr<Source>, SourceError> open_source(const std::string
        {"bind", "calibration", "from", "group", "interface", "model", "model_byte", "returns"}},
       {"scans", {"floats", "time"}},
   };
+  if (uri->scheme == "ros2") return open_ros2_source(*uri, options);  // its options depend on each other
   const auto scheme = schemes.find(uri->scheme);
   if (scheme == schemes.end()) {
     return tl::unexpected("source '" + text + "': unknown scheme '" + uri->scheme +
-                          "' (bag, ouster, ouster-udp, velodyne, velodyne-udp, scans)");
+                          "' (bag, ouster, ouster-udp, ros2, velodyne, velodyne-udp, scans)");
   }
   const auto checked = check_options(*uri, scheme->second);
   if (!checked) return tl::unexpected(checked.error());

@@ -6,6 +6,7 @@
 
 #include "services/ingest/loss_words.hpp"
 #include "services/ingest/source_options.hpp"
+#include "services/ingest/udp_ports.hpp"
 
 namespace gvom::ingest {
 
@@ -56,7 +57,7 @@ tl::expected<CheckedSource, SourceError> check_source(const services::LidarConfi
     return tl::unexpected(SourceError(std::move(lack)));
   CheckedSource checked;
   if ((*source)->is_live()) {
-    checked.found = "its port can be bound";
+    checked.found = live_port(lidar.source) ? "its port can be bound" : "its network is there";
   } else {
     Sweep sweep;
     const auto sweeps = decode_some(**source, sweep);

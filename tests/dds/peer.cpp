@@ -4,8 +4,12 @@
 //   dds_peer DOMAIN hear-cloud TOPIC
 //   dds_peer DOMAIN hear-graph
 //   dds_peer DOMAIN send-cloud TOPIC POINTS    (one for each line on stdin)
+//   dds_peer DOMAIN send-file TOPIC FILE TYPE  (likewise its messages: a size in four bytes, then CDR)
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -25,6 +29,7 @@
 #include <fastdds/dds/subscriber/Subscriber.hpp>
 #include <fastdds/dds/subscriber/qos/DataReaderQos.hpp>
 #include <fastdds/dds/topic/Topic.hpp>
+#include <fastdds/dds/topic/TopicDataType.hpp>
 
 #include "messagesPubSubTypes.h"
 
@@ -117,6 +122,31 @@ class Discovery : public fast::DomainParticipantListener {
   }
 };
 
+using Bytes = std::vector<std::uint8_t>;
+
+/// Messages that are serialised already.
+class RawType : public fast::TopicDataType {
+ public:
+  explicit RawType(const char* name) {
+    setName(name);
+    m_typeSize = 1 << 20;
+  }
+  bool serialize(void* data, rtps::SerializedPayload_t* payload) override {
+    const Bytes& bytes = *static_cast<Bytes*>(data);
+    payload->encapsulation = CDR_LE;
+    payload->length = static_cast<std::uint32_t>(bytes.size());
+    std::copy(bytes.begin(), bytes.end(), payload->data);
+    return true;
+  }
+  bool deserialize(rtps::SerializedPayload_t*, void*) override { return false; }
+  std::function<uint32_t()> getSerializedSizeProvider(void* data) override {
+    return [data] { return static_cast<std::uint32_t>(static_cast<Bytes*>(data)->size()); };
+  }
+  void* createData() override { return new Bytes; }
+  void deleteData(void* data) override { delete static_cast<Bytes*>(data); }
+  bool getKey(void*, rtps::InstanceHandle_t*, bool) override { return false; }
+};
+
 fast::DomainParticipant* join(int domain, fast::DomainParticipantListener* listener) {
   fast::DomainParticipantQos qos = fast::PARTICIPANT_QOS_DEFAULT;
   const auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
@@ -184,6 +214,16 @@ void send_clouds(fast::DataWriter* writer, unsigned points) {
   }
 }
 
+void send_file(fast::DataWriter* writer, const char* path) {
+  std::ifstream file(path, std::ios::binary);
+  std::uint32_t size = 0;
+  while (std::fgetc(stdin) != EOF && file.read(reinterpret_cast<char*>(&size), sizeof size)) {
+    Bytes message(size);
+    file.read(reinterpret_cast<char*>(message.data()), size);
+    say("%s", writer->write(&message) ? "sent" : "refused");
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -211,10 +251,13 @@ int main(int argc, char** argv) {
                     "ros_discovery_info"),
          true, &graphs);
   fast::DataWriter* writer = nullptr;
+  if (mode == "send-file")
+    writer = make_writer(participant, open_topic(participant, new RawType(argv[5]), argv[5], topic), &mouth);
   if (mode == "send-cloud")
     writer = make_writer(participant, open_topic(participant, new CloudPubSubType, kCloud, topic), &mouth);
   say("ready");
-  if (writer != nullptr) send_clouds(writer, static_cast<unsigned>(std::atoi(argv[4])));
+  if (mode == "send-file") send_file(writer, argv[4]);
+  if (mode == "send-cloud") send_clouds(writer, static_cast<unsigned>(std::atoi(argv[4])));
   while (std::fgetc(stdin) != EOF) continue;
   std::_Exit(0);
 }

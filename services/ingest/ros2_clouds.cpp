@@ -1,0 +1,69 @@
+#include "services/ingest/ros2_clouds.hpp"
+
+#include <utility>
+
+#include "ipc/clock.hpp"
+#include "services/ingest/arrival_clock.hpp"
+
+namespace gvom::ingest {
+namespace {
+
+constexpr double kMostTurnsPerSecond = 20;
+
+}  // namespace
+
+Ros2Clouds::Ros2Clouds(dds::Reader reader, const std::string& name, const CloudOptions& options,
+                       std::int64_t clock_offset_ns)
+    : reader_(std::move(reader)),
+      name_(name),
+      sweeps_(options, name, "ros2"),
+      clock_offset_ns_(clock_offset_ns) {}
+
+double Ros2Clouds::most_packets_per_s() const {
+  return kMostTurnsPerSecond;
+}
+
+tl::expected<SourceEvent, std::string> Ros2Clouds::next(Sweep& out, std::chrono::milliseconds timeout) {
+  out.clear();
+  const auto message = reader_.take(timeout);
+  const dds::ReaderCounters reader = reader_.counters();
+  state_.counters.kernel_drops = reader.lost + reader.replaced;
+  if (!message) return SourceEvent::kIdle;
+  ++state_.counters.packets;
+  if (!owner_.is_owner(message->publisher, message->arrived_ns)) {
+    ++state_.counters.second_sensor_packets;
+    state_.counters.second_address = address_of_publisher(message->publisher);
+    return SourceEvent::kIdle;
+  }
+  return make(*message, out) ? SourceEvent::kSweep : SourceEvent::kIdle;
+}
+
+bool Ros2Clouds::make(const dds::Message& message, Sweep& out) {
+  auto made = ros::read_point_cloud({message.cdr->data(), message.cdr->size()}, cloud_);
+  if (made) made = sweeps_.make(cloud_, state_, out);
+  if (!made) {
+    refuse(message, made.error());
+    out.clear();
+    return false;
+  }
+  shift(out, clock_offset_ns_);
+  out.received_ns = message.arrived_ns;
+  out.suspended_ns = ipc::suspended_ns();
+  ++state_.counters.sweeps;
+  return true;
+}
+
+void Ros2Clouds::refuse(const dds::Message& message, const std::string& why) {
+  SourceCounters& counters = state_.counters;
+  const std::uint64_t size = message.cdr->size();
+  if (++counters.foreign_packets > 1 && counters.foreign_size != size) ++counters.foreign_size_changes;
+  counters.foreign_size = size;
+  if (!std::exchange(told_foreign_, true))
+    state_.warnings.push_back(name_ + ": " + why + ": the cloud is not used, and neither are others like it");
+}
+
+tl::expected<void, std::string> Ros2Clouds::rewind() {
+  return tl::unexpected(name_ + ": a live source cannot start again");
+}
+
+}  // namespace gvom::ingest
