@@ -31,7 +31,7 @@ using Fault = beast::error_code;
 using Request = http::request<http::empty_body>;
 
 inline constexpr std::chrono::seconds kPatience{10};  // for a request, a handshake, a closing
-inline constexpr std::chrono::seconds kIdle{20};      // then a client is asked whether it lives
+inline constexpr std::chrono::seconds kIdle{60};      // a client is asked after half of it whether it lives
 
 class Client;
 

@@ -4,6 +4,7 @@
 #include <mutex>
 #include <thread>
 
+#include <spdlog/spdlog.h>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
@@ -86,6 +87,7 @@ class FoxgloveServer::State {
     if (!fault) {
       set_problem("");
       port_ = acceptor_.local_endpoint().port();
+      spdlog::info("foxglove: at {}, port {}", address_.to_string(), port_.load());
       return accept();
     }
     Fault ignored;
