@@ -45,6 +45,7 @@ bool McapRecorder::wants(const Topic& topic) const {
 }
 
 void McapRecorder::offer(const Topic& topic, std::int64_t stamp_ns, const ros::Blob& message) {
+  if (stamp_ns == 0) return;
   {
     const std::lock_guard lock(mutex_);
     if (!problem_.empty() || waiting_bytes_ + message->size() > options_.most_waiting_bytes) {

@@ -24,7 +24,8 @@ struct RecorderOptions {
 
 /// Files are `FOLDER/gvom-DATE_000.mcap` and on, DATE of the start in UTC. A thread of its own packs and
 /// writes; what was recorded until a second ago is in the file if the process is killed. A full disk ends the
-/// recording, and problem() says so; what was written stays readable.
+/// recording, and problem() says so; what was written stays readable. What is said before the first data has
+/// no time (stamp 0) and is not recorded: the file would begin in 1970.
 class McapRecorder : public Sink {
  public:
   explicit McapRecorder(RecorderOptions options);

@@ -32,7 +32,8 @@ TEST_CASE("the topics that are asked for are recorded, with schema and quality o
     McapRecorder recorder(options);
     CHECK(recorder.wants(bridge::topic(TopicId::costmap)));
     CHECK(!recorder.wants(bridge::topic(TopicId::layers)));
-    for (std::uint8_t i = 0; i < 10; ++i) {
+    recorder.offer(bridge::topic(TopicId::status), 0, blob(2, '0'));  // before the first data
+    for (std::uint8_t i = 1; i <= 10; ++i) {
       recorder.offer(bridge::topic(TopicId::costmap), i, blob(1000, i));
       recorder.offer(bridge::topic(TopicId::status), i, blob(2, '1'));
     }
@@ -46,7 +47,7 @@ TEST_CASE("the topics that are asked for are recorded, with schema and quality o
   CHECK(file.finished);
   REQUIRE(file.messages.size() == 20);
   CHECK(file.messages[18].topic == "/gvom/costmap");
-  CHECK(file.messages[18].bytes == *blob(1000, 9));
+  CHECK(file.messages[18].bytes == *blob(1000, 10));
   CHECK(file.messages[19].type.empty());
   CHECK_THAT(file.schemas.at("nav_msgs/msg/OccupancyGrid"), Catch::Contains("MSG: geometry_msgs/Pose\n"));
   CHECK_THAT(file.metadata.at("/gvom/costmap"), Catch::Contains("durability: 1\n"));
