@@ -9,8 +9,12 @@ import { status_of } from './data/status.js';
 import { Connection } from './wire/connection.js';
 
 const SMALL_TOPICS = ['/gvom/status'];
-const MAP_TOPICS = ['/gvom/layers', '/tf', '/gvom/plan', '/gvom/trajectory'];
+const MAP_TOPICS = ['/tf', '/gvom/plan', '/gvom/trajectory'];
+const LAYERS = '/gvom/layers';
 const VOXELS = '/gvom/voxels';
+const LONGEST_PAUSE_S = 0.8;
+const LATE_S = 0.25;
+const LATE_MAPS = 3;        // so many one after the other, and what has piled up on the way is let go
 const WAY_HOLDS_S = 1;      // a planner that says nothing for longer has no way
 const VOXELS_HOLD_S = 3;
 const BUDGET_BYTES = 240e6;
@@ -27,8 +31,8 @@ export class Feed {
     this.ways = { plan: { way: [], at_s: -Infinity }, trajectory: { way: [], at_s: -Infinity } };
     this.map = this.pose = this.cloud = this.tops = this.status = null;
     this.cloud_at_s = this.status_at_s = -Infinity;
-    this.was_hidden = false;
-    this.wants_voxels = false;
+    this.was_hidden = this.is_hidden = this.wants_voxels = this.lets_go = false;
+    this.late_maps = 0;
     this.connection = new Connection(url, {
       on_message: (topic, message, stamp_ns) => this.on_message(topic, message, stamp_ns),
       on_change: () => on_status() });
@@ -37,15 +41,34 @@ export class Feed {
   /** A hidden tab takes the status only. */
   set_wanted(is_hidden, wants_voxels) {
     this.was_hidden = this.was_hidden || is_hidden;
+    this.is_hidden = is_hidden;
     this.wants_voxels = wants_voxels;
-    const voxels = wants_voxels ? [VOXELS] : [];
-    this.connection.want(is_hidden ? SMALL_TOPICS : [...SMALL_TOPICS, ...MAP_TOPICS, ...voxels]);
+    this.subscribe();
+  }
+
+  subscribe() {
+    const large = this.lets_go ? [] : this.wants_voxels ? [LAYERS, VOXELS] : [LAYERS];
+    this.connection.want(this.is_hidden ? SMALL_TOPICS : [...SMALL_TOPICS, ...MAP_TOPICS, ...large]);
+  }
+
+  /** When maps come late again and again, none is taken until those that have piled up on the way have gone by, unread. */
+  catch_up() {
+    const late_s = this.age.late_s();
+    this.late_maps = late_s > LATE_S ? this.late_maps + 1 : 0;
+    if (this.late_maps < LATE_MAPS) return;
+    this.late_maps = 0;
+    this.lets_go = true;
+    this.subscribe();
+    setTimeout(() => {
+      this.lets_go = false;
+      this.subscribe();
+    }, 1000 * Math.min(LONGEST_PAUSE_S, late_s));
   }
 
   on_message(topic, message, stamp_ns) {
     const now_s = clock_s();
-    if (topic === '/gvom/layers') this.on_layers(message, Number(stamp_ns) / 1e9, now_s);
-    if (topic === '/tf') this.pose = pose_of(message, this.map?.frame ?? 'odom') ?? this.pose;
+    if (topic === LAYERS) this.on_layers(message, Number(stamp_ns) / 1e9, now_s);
+    if (topic === '/tf') this.on_tf(message, Number(stamp_ns) / 1e9, now_s);
     if (topic === '/gvom/plan') this.ways.plan = { way: way_of(message), at_s: now_s };
     if (topic === '/gvom/trajectory') this.ways.trajectory = { way: way_of(message), at_s: now_s };
     if (topic === VOXELS) this.on_voxels(message, now_s);
@@ -58,6 +81,14 @@ export class Feed {
     this.was_hidden = false;
     this.keep(now_s);
     this.on_map();
+    this.catch_up();
+  }
+
+  on_tf(message, stamp_s, now_s) {
+    const pose = pose_of(message, this.map?.frame ?? 'odom');
+    if (!pose) return;
+    this.pose = pose;
+    this.age.on_pose(stamp_s, now_s);
   }
 
   on_voxels(message, now_s) {
@@ -103,7 +134,7 @@ export class Feed {
       connected: connection.connected,
       url: new URL(connection.url).host,
       retry_s: ((connection.retry_at_ms ?? 0) - Date.now()) / 1000,
-      offered: connection.offers('/gvom/layers'),
+      offered: connection.offers(LAYERS),
       status: this.status,
       status_silent_s: now_s - this.status_at_s,
       late_s: this.age.silent_s(now_s) < SILENT_S ? this.age.late_s() : 0,

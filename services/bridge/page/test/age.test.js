@@ -38,12 +38,30 @@ test('maps that come ever later on a slow link are as old as they are late', () 
   near(age.age_s(8.95), 0.9);
 });
 
+test('a link that stood still for two seconds is no slow recording', () => {
+  near(fed(12, (t) => 0.05 + (t > 11.95 ? 2.3 : 0)).late_s(), 2.3);
+});
+
+test('maps that are always late are told by poses that are not', () => {
+  const age = fed(8, () => 1);
+  near(age.late_s(), 0);       // nothing to compare with
+  age.on_pose(506.4, 6.41);    // a pose takes 0.01 s, so a map may take 0.31 s
+  near(age.late_s(), 0.69);
+});
+
+test('the time that it takes to make a map is not late', () => {
+  const age = fed(8, () => 0.12);
+  age.on_pose(506.4, 6.41);
+  near(age.late_s(), 0);
+});
+
 test('a recording that is played at half its speed is not late', () => {
   assert.ok(fed(19, () => 0.05, 0.5).late_s() < 1e-6);
 });
 
 test('when a replay begins anew, or jumps ahead, its clock is judged anew', () => {
   const age = fed(5);
+  age.on_pose(504, 4.01);
   age.on_map(100, 5.2);
   near(age.age_s(5.2), 0);
   age.on_map(900, 5.3);

@@ -35,3 +35,8 @@ test('nothing at all is a status too', () => {
   assert.deepEqual([status.processes, status.lidars, status.problems, status.layers_age_s], [[], [], [], null]);
   assert.equal(status_of({ processes: [{}] }).processes[0].state, 'unknown');
 });
+
+test('a silent process has no reason: what it said last is old', () => {
+  assert.deepEqual(status_of({ processes: [{ name: 'gvom-fusion', state: 'silent', reason: 'as configured' }] }).problems,
+    ['gvom-fusion is silent']);
+});

@@ -37,10 +37,11 @@ function lidar_of([name, json]) {
   };
 }
 
+/** What a process said before it fell silent is no reason any more. */
 function problems_of({ processes, lidars, layers_age_s }) {
   const problems = processes
     .filter(({ state }) => state !== 'ok' && state !== 'unknown')
-    .map(({ name, state, reason }) => `${name} is ${state}${reason ? `: ${reason}` : ''}`);
+    .map(({ name, state, reason }) => `${name} is ${state}${state !== 'silent' && reason ? `: ${reason}` : ''}`);
   for (const { name, missing, unknown } of lidars) {
     if (unknown) problems.push(`lidar ${name} is not in gvom-fusion's configuration: its maps are not taken`);
     else if (missing) problems.push(`lidar ${name} is missing in the layers`);

@@ -2,7 +2,7 @@
 import { element, find } from './dom.js';
 import { seconds, whole, with_unit } from './words.js';
 
-const MARKS = { ok: '●', degraded: '▲', failed: '■', starting: '○', unknown: '○', stopped: '○' };
+const MARKS = { ok: '●', degraded: '▲', failed: '■', silent: '■', starting: '○', stopping: '○', unknown: '○' };
 
 const mark_of = (state) => element('span', `mark ${state in MARKS ? state : 'failed'}`, MARKS[state] ?? '■');
 

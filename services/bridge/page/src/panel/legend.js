@@ -15,7 +15,7 @@ function digits_of(low, high) {
 function show_scale(style, range) {
   const scale = style.scale ?? 1;
   const [low, high] = (range ?? [0, 1]).map((value) => value * scale);
-  const ticks = [low, (low + high) / 2, high].map((value) => element('span', '', value.toFixed(digits_of(low, high))));
+  const ticks = [low, (low + high) / 2, high].map((value) => element('span', '', value.toFixed(digits_of(low, high)).replace(/^-(?=[0.]*$)/, '')));
   const bar = element('div', 'gradient');
   bar.style.background = css_gradient(COLOUR_MAPS[style.map]);
   find('scale').replaceChildren(bar, element('div', 'ticks', ...ticks));
