@@ -9,6 +9,7 @@ import { make_key, show_layers, show_note, show_range } from './panel/legend.js'
 import { Scrubber } from './panel/scrubber.js';
 import { start_theme } from './panel/theme.js';
 import { past_words, reason_of, title_of, worth_of } from './panel/words.js';
+import { BlindScene } from './view/blind_scene.js';
 import { Scene } from './view/scene.js';
 
 const TICK_MS = 100;
@@ -27,11 +28,20 @@ function bridge_url() {
 
 const shows = { obstacles: true, ways: true, voxels: false };
 const is_phone = () => window.innerWidth < PHONE_PX;
-const scene = new Scene(find('scene'), () => find('scene').focus());
+const scene = make_scene();
 const feed = new Feed(bridge_url(), { on_map: show_live, on_status: () => show_summary(feed.status) });
 const scrubber = new Scrubber(feed.history, show_at);
 let layer = 'height';
 let layers_offered = '';
+
+function make_scene() {
+  try {
+    return new Scene(find('scene'));
+  } catch (error) {
+    console.warn(`gvom: nothing can be drawn: ${error.message}`);
+    return new BlindScene();
+  }
+}
 
 /** Obstacles have their height from the voxels; on a phone those come only when they are asked for. */
 function choose_topics() {
@@ -64,7 +74,8 @@ function tick_age(now_s) {
   }
   find('past').hidden = true;
   show_age(worth, age_s, feed.age.rate_hz(now_s));
-  if (worth === 'fresh') show_notice('', '');
+  if (worth === 'fresh' && scene.is_blind) show_notice('This browser cannot draw the map', 'It has no WebGL 2. Ages and health are as they are.');
+  else if (worth === 'fresh') show_notice('', '');
   else show_notice(title_of(worth, age_s), reason_of(feed.circumstances(now_s)));
 }
 

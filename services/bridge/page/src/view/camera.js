@@ -9,13 +9,12 @@ const SETTLES_S = 0.25;
 const UP = new THREE.Vector3(0, 0, 1);
 
 export class Camera {
-  /** @param {HTMLElement} element that is dragged @param {() => void} on_hand the hand took it */
-  constructor(element, on_hand) {
+  /** @param {HTMLElement} element that is dragged */
+  constructor(element) {
     this.camera = new THREE.PerspectiveCamera(48, 1, 0.5, 600);
     this.camera.up.copy(UP);
     this.controls = new OrbitControls(this.camera, element);
     Object.assign(this.controls, { enableDamping: true, dampingFactor: 0.12, maxPolarAngle: 1.5, minDistance: 5, maxDistance: 220 });
-    this.controls.addEventListener('start', on_hand);
     this.mode = 'follow';
     this.goal = null;  // {place, yaw_rad} of the vehicle in the scene
     this.at = null;

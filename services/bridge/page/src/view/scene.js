@@ -27,12 +27,12 @@ const SHARPEST_PIXELS = 2;
  */
 
 export class Scene {
-  /** @param {HTMLCanvasElement} canvas @param {() => void} on_hand the hand took the camera */
-  constructor(canvas, on_hand) {
+  /** @param {HTMLCanvasElement} canvas; throws where there is no WebGL 2 */
+  constructor(canvas) {
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: !draws_in_software() });
     this.pace = new Pace(this.renderer.getContext(), Math.min(SHARPEST_PIXELS, window.devicePixelRatio));
     this.renderer.setPixelRatio(this.pace.pixels);
-    this.camera = new Camera(canvas, on_hand);
+    this.camera = new Camera(canvas);
     this.three = new THREE.Scene();
     this.ground = new Ground();
     this.obstacles = new Obstacles();

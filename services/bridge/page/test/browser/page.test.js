@@ -116,4 +116,18 @@ test('the page in Chromium', { skip: lacks, timeout: 170000 }, async (t) => {
     bridge.refuses = false;
     await until_map(page, 'fresh');
   });
+
+  await t.test('without WebGL it says so, and goes on with the rest', async () => {
+    const blind = await browser.newPage();
+    await blind.evaluateOnNewDocument(() => {
+      const get = HTMLCanvasElement.prototype.getContext;
+      HTMLCanvasElement.prototype.getContext = function context(kind, ...more) {
+        return kind.startsWith('webgl') ? null : get.call(this, kind, ...more);
+      };
+    });
+    await blind.goto(`http://127.0.0.1:${port}`);
+    await until(async () => /has no WebGL 2/.test(await text(blind, '#notice')));
+    await until(async () => /All is well/.test(await text(blind, '#health')));
+    await blind.close();
+  });
 });
