@@ -230,5 +230,6 @@ int main(int argc, char** argv) {
   add_clouds(seeds);
   add_texts(seeds);
   add_messages(seeds);
+  add_bags(seeds);
   return 0;
 }

@@ -33,4 +33,7 @@ class Seeds {
 /// One valid message of each topic.
 void add_messages(Seeds& seeds);
 
+/// MCAP files and ROS 2 messages.
+void add_bags(Seeds& seeds);
+
 }  // namespace gvom::fuzz

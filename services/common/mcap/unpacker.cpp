@@ -5,6 +5,16 @@
 #include <zstd.h>
 
 namespace gvom::mcap {
+namespace {
+
+/// What `packed` bytes can unpack to at most, by the formats' densest blocks.
+std::uint64_t most_bytes(const std::string& compression, std::size_t packed) {
+  constexpr std::uint64_t kZstdRatio = 32768;
+  constexpr std::uint64_t kLz4Ratio = 255;
+  return std::uint64_t{packed} * (compression == "zstd" ? kZstdRatio : kLz4Ratio);
+}
+
+}  // namespace
 
 void Unpacker::Free::operator()(ZSTD_DCtx_s* context) const {
   ZSTD_freeDCtx(context);
@@ -23,10 +33,10 @@ tl::expected<void, std::string> Unpacker::unpack(Bytes chunk, std::vector<std::u
   const auto head = read_chunk_head(chunk);
   if (!head || head->packed_bytes > chunk.size - head->head_bytes)
     return tl::unexpected(std::string("its record is damaged"));
-  if (head->bytes > kMostBytes)
+  const bool plain = head->compression.empty();
+  if (head->bytes > kMostBytes || (!plain && head->bytes > most_bytes(head->compression, head->packed_bytes)))
     return tl::unexpected("it says that it unpacks to " + std::to_string(head->bytes) + " bytes");
   const Bytes packed{chunk.data + head->head_bytes, static_cast<std::size_t>(head->packed_bytes)};
-  const bool plain = head->compression.empty();
   if (plain && packed.size != head->bytes) return tl::unexpected(std::string("its two sizes differ"));
   if (plain) {
     out.assign(packed.data, packed.data + packed.size);
