@@ -66,7 +66,7 @@ SourceResult open_packets(const SourceUri& uri, const SourceOptions& options, co
   const auto strangers = look_for_sensor(*packets, **decoder);
   if (!strangers) return tl::unexpected(strangers.error());
   if (!strangers->found) {
-    const std::string why = state->warnings.empty() ? "" : " (" + state->warnings.back() + ")";
+    const std::string why = state->counters.foreign_packets == 0 ? "" : " (" + state->warnings.back() + ")";
     return tl::unexpected(no_such_packets(*strangers, **decoder, name, "packets in it") + why);
   }
   state->counters = {};

@@ -109,7 +109,7 @@ TEST_CASE("the lines are a vehicle's file that loads, and leave the bag open") {
   REQUIRE(config.has_value());
   CHECK(config->odometry.source == "bag:?topic=/odom");
   REQUIRE(config->lidars.size() == 3);
-  CHECK(config->lidars[0].source == "bag:?topic=/ouster/lidar_packets&meta=FILE.json");
+  CHECK(config->lidars[0].source == "bag:?topic=/ouster/lidar_packets&meta=ouster_metadata.json");
   CHECK(config->lidars[1].source == "bag:?topic=/points&deskew=off");
   CHECK(config->lidars[2].source == "bag:?topic=/velodyne_packets&model=VLP-16");
 }
@@ -136,9 +136,8 @@ TEST_CASE("an Ouster's metadata comes out of the bag as it went in") {
   Bag bag;
   record_robot(bag);
   bag.file.write(bag.path());
-  const std::string path = bag.folder.path() + "/os1.json";
-  CHECK(ctl::show_bag(bag.path(), path) == 0);
-  std::ifstream file(path);
+  CHECK(ctl::show_bag(bag.path(), bag.folder.path()) == 0);
+  std::ifstream file(bag.folder.path() + "/ouster_metadata.json");
   CHECK(std::string(std::istreambuf_iterator<char>(file), {}) == "{\"prod_sn\": 1}");
   CHECK(ctl::show_bag(bag.folder.path() + "/none", "") == 65);
 }

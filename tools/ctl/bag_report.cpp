@@ -84,11 +84,20 @@ std::string model_of(const BagTopicFacts& topic) {
   }
 }
 
-std::string source_of(const BagTopicFacts& topic) {
+/// The metadata in the same namespace as the packets; FILE.json where the bag has none.
+std::string metadata_of(const BagFacts& facts, const BagTopicFacts& packets) {
+  const std::string space = packets.name.substr(0, packets.name.rfind('/') + 1);
+  for (const BagTopicFacts& topic : facts.topics)
+    if (!topic.metadata.empty() && topic.name.compare(0, space.size(), space) == 0)
+      return metadata_file(topic);
+  return "FILE.json";
+}
+
+std::string source_of(const BagFacts& facts, const BagTopicFacts& topic) {
   const std::string uri = "bag:?topic=" + topic.name;
   switch (topic.use) {
     case BagTopicUse::ouster:
-      return uri + "&meta=FILE.json";
+      return uri + "&meta=" + metadata_of(facts, topic);
     case BagTopicUse::velodyne:
       return uri + "&model=" + model_of(topic);
     default:
@@ -145,6 +154,12 @@ std::vector<std::string> bag_problems(const BagFacts& facts) {
   return out;
 }
 
+std::string metadata_file(const BagTopicFacts& topic) {
+  std::string name = topic.name.substr(topic.name.find_first_not_of('/'));
+  std::replace(name.begin(), name.end(), '/', '_');
+  return name + ".json";
+}
+
 std::string vehicle_lines(const BagFacts& facts) {
   std::string text = "name: my_vehicle\n\n";
   if (const BagTopicFacts* const odometry = odometry_of(facts)) {
@@ -161,7 +176,8 @@ std::string vehicle_lines(const BagFacts& facts) {
   for (const BagTopicFacts& topic : facts.topics) {
     if (!is_usable(topic)) continue;
     text += fmt::format("  lidar{}:{}\n    source: {}\n", ++lidars,
-                        topic.frame_id.empty() ? "" : "  # its frame: " + topic.frame_id, source_of(topic));
+                        topic.frame_id.empty() ? "" : "  # its frame: " + topic.frame_id,
+                        source_of(facts, topic));
     text += "    # Where it sits on base_link, in metres and radians: yours to measure.\n";
     text += "    T_base_sensor: {x: 0, y: 0, z: 1, roll: 0, pitch: 0, yaw: 0}\n";
   }

@@ -15,6 +15,9 @@ std::string bag_table(const BagFacts& facts);
 /// odometry, no lidar, clouds without times.
 std::vector<std::string> bag_problems(const BagFacts& facts);
 
+/// The name of the file for an Ouster's metadata of this topic: "front_metadata.json".
+std::string metadata_file(const BagTopicFacts& topic);
+
 /// YAML for `gvom-map --bag`; what only a person knows is marked by a comment.
 std::string vehicle_lines(const BagFacts& facts);
 

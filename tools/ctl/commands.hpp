@@ -42,7 +42,7 @@ int show_check(const services::VehicleConfig& config, bool json);
 
 /// Prints what is in the bag at `path`, and the lines of a vehicle's file that map it; or, if `metadata_path`
 /// is not empty, writes the Ouster metadata of the bag there. 0, 65 if it is no bag or has no such metadata.
-int show_bag(const std::string& path, const std::string& metadata_path);
+int show_bag(const std::string& path, const std::string& metadata_folder);
 
 /// Prints whom of those who run the file's change concerns (services/common/config_concerns.hpp), then has
 /// systemd restart them, unless it is a `dry_run`. 0, 78 if the pools that the file asks for cannot be, 69 if

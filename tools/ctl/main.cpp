@@ -76,8 +76,8 @@ void add_commands(CLI::App& app, Options& options) {
                          "lines of a vehicle's file that map it");
   bag->add_option("PATH", options.bag, "a folder, .db3 or .mcap")->required();
   bag->add_option("--metadata", options.metadata,
-                  "write the Ouster metadata that is in the bag, and nothing else")
-      ->type_name("FILE.json");
+                  "write the Ousters' metadata that is in the bag there, and nothing else")
+      ->type_name("FOLDER");
   app.footer(
       "Examples:\n"
       "  gvomctl status                          is all well on this vehicle?\n"
