@@ -36,6 +36,32 @@ tl::expected<Kind, std::string> kind_of(const bag::Topic& topic, const std::stri
                         "velodyne_msgs/msg/VelodyneScan, ouster_sensor_msgs/msg/PacketMsg are)");
 }
 
+struct OpenTopic {
+  bag::BagReader reader;
+  std::string name;  // the bag and the topic, for messages
+  Kind kind;
+};
+
+tl::expected<OpenTopic, std::string> open_topic(const SourceUri& uri) {
+  const auto topic = uri.option("topic");
+  if (!topic)
+    return tl::unexpected("source '" + uri.text + "': needs topic=TOPIC (gvomctl bag " + uri.path +
+                          " lists them)");
+  auto reader = bag::BagReader::open(uri.path, {*topic});
+  if (!reader) return tl::unexpected(reader.error());
+  const std::string name = uri.path + " " + *topic;
+  const auto found = reader->find(*topic);
+  if (found.size() > 1)
+    return tl::unexpected(name + ": is of two types, " + found[0]->type + " and " + found[1]->type);
+  const auto kind = kind_of(*found[0], name);
+  if (!kind) return tl::unexpected(kind.error());
+  return OpenTopic{std::move(*reader), name, *kind};
+}
+
+PacketMessages messages_of(Kind kind) {
+  return kind == Kind::ouster ? PacketMessages::ouster : PacketMessages::velodyne;
+}
+
 std::set<std::string> options_of(Kind kind) {
   std::set<std::string> allowed{"topic"};
   if (kind == Kind::ouster) allowed.insert(kOusterOptions.begin(), kOusterOptions.end());
@@ -61,8 +87,7 @@ SourceResult open_packets(const SourceUri& uri, const SourceOptions& options, co
   auto decoder =
       ouster ? make_ouster_decoder(uri, options, *state) : make_velodyne_decoder(uri, options, *state);
   if (!decoder) return tl::unexpected(decoder.error());
-  const auto messages = ouster ? PacketMessages::ouster : PacketMessages::velodyne;
-  auto packets = std::make_unique<BagPackets>(std::move(reader), messages, name, *state);
+  auto packets = std::make_unique<BagPackets>(std::move(reader), messages_of(kind), name, *state);
   const auto strangers = look_for_sensor(*packets, **decoder);
   if (!strangers) return tl::unexpected(strangers.error());
   if (!strangers->found) {
@@ -78,22 +103,24 @@ SourceResult open_packets(const SourceUri& uri, const SourceOptions& options, co
 }  // namespace
 
 SourceResult open_bag_source(const SourceUri& uri, const SourceOptions& options) {
-  const auto topic = uri.option("topic");
-  if (!topic)
-    return tl::unexpected("source '" + uri.text + "': needs topic=TOPIC (gvomctl bag " + uri.path +
-                          " lists them)");
-  auto reader = bag::BagReader::open(uri.path, {*topic});
-  if (!reader) return tl::unexpected(reader.error());
-  const std::string name = uri.path + " " + *topic;
-  const auto found = reader->find(*topic);
-  if (found.size() > 1)
-    return tl::unexpected(name + ": is of two types, " + found[0]->type + " and " + found[1]->type);
-  const auto kind = kind_of(*found[0], name);
-  if (!kind) return tl::unexpected(kind.error());
-  if (const auto checked = check_options(uri, options_of(*kind)); !checked)
+  auto topic = open_topic(uri);
+  if (!topic) return tl::unexpected(topic.error());
+  if (const auto checked = check_options(uri, options_of(topic->kind)); !checked)
     return tl::unexpected(checked.error());
-  if (*kind == Kind::cloud) return open_clouds(uri, options, name, std::move(*reader));
-  return open_packets(uri, options, name, std::move(*reader), *kind);
+  if (topic->kind == Kind::cloud) return open_clouds(uri, options, topic->name, std::move(topic->reader));
+  return open_packets(uri, options, topic->name, std::move(topic->reader), topic->kind);
+}
+
+tl::expected<std::unique_ptr<PacketSource>, std::string> open_bag_packets(const std::string& uri,
+                                                                          SourceState& state) {
+  const auto parsed = parse_source_uri(uri);
+  if (!parsed) return tl::unexpected(parsed.error());
+  if (const auto checked = check_options(*parsed, {"topic"}); !checked)
+    return tl::unexpected(checked.error());
+  auto topic = open_topic(*parsed);
+  if (!topic) return tl::unexpected(topic.error());
+  if (topic->kind == Kind::cloud) return tl::unexpected(topic->name + ": has clouds, and no packets");
+  return std::make_unique<BagPackets>(std::move(topic->reader), messages_of(topic->kind), topic->name, state);
 }
 
 }  // namespace gvom::ingest

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include <tl/expected.hpp>
 
+#include "services/ingest/packet.hpp"
 #include "services/ingest/source.hpp"
 #include "services/ingest/uri.hpp"
 
@@ -14,5 +16,10 @@ namespace gvom::ingest {
 /// Velodyne `model`, as their pcaps do; clouds nothing. Errors name the bag and what it has instead.
 tl::expected<std::unique_ptr<Source>, SourceError> open_bag_source(const SourceUri& uri,
                                                                    const SourceOptions& options);
+
+/// The packets of a `bag:PATH?topic=T` whose topic has packets, as they were sent; no ports are known.
+/// `state` outlives them.
+tl::expected<std::unique_ptr<PacketSource>, std::string> open_bag_packets(const std::string& uri,
+                                                                          SourceState& state);
 
 }  // namespace gvom::ingest

@@ -3,6 +3,7 @@
 
 #include "services/common/bag/bag_reader.hpp"
 #include "services/common/ros/incoming.hpp"
+#include "services/ingest/bag_source.hpp"
 #include "tests/ingest/bag_fixture.hpp"
 #include "tests/ingest/ouster_builder.hpp"
 #include "tests/ingest/velodyne_builder.hpp"
@@ -113,6 +114,25 @@ TEST_CASE("a bag's topic that can't be a lidar is refused with what helps") {
         std::string::npos);
   TopicBag ros1("sensor_msgs/msg/PointCloud2", "ros1");
   CHECK(open_error(ros1.uri()).find("its messages are 'ros1', not CDR") != std::string::npos);
+}
+
+TEST_CASE("a bag's packets come as they were sent, at their own times, to be played") {
+  TopicBag bag(kVelodyneType);
+  const std::vector<ByteVector> packets{turning_packet(0), turning_packet(12)};
+  bag.add(kNoon_ns, velodyne_message(kNoon_ns, packets, 1'000'000));
+  ingest::SourceState state;
+  const auto source = ingest::open_bag_packets(bag.uri(), state);
+  REQUIRE(source.has_value());
+  ingest::Packet packet;
+  for (std::size_t i = 0; i < 2; ++i) {
+    REQUIRE((*source)->next(packet, std::chrono::milliseconds(0)).value() == ingest::PacketEvent::packet);
+    CHECK(ByteVector(packet.data, packet.data + packet.size) == packets[i]);
+    CHECK(packet.capture_ns == kNoon_ns + static_cast<std::int64_t>(i) * 1'000'000);
+  }
+  CHECK((*source)->next(packet, std::chrono::milliseconds(0)).value() == ingest::PacketEvent::end);
+  TopicBag clouds("sensor_msgs/msg/PointCloud2");
+  CHECK(ingest::open_bag_packets(clouds.uri(), state).error().find("has clouds, and no packets") !=
+        std::string::npos);
 }
 
 TEST_CASE("a real bag gives the sweeps that its packets give as a pcap") {

@@ -2,11 +2,13 @@
 // that the live path is what a replay tests.
 #include <cstdio>
 #include <iostream>
+#include <memory>
 
 #include <CLI/CLI.hpp>
 
 #include "services/common/exit_code.hpp"
 #include "services/common/lifecycle.hpp"
+#include "services/ingest/bag_source.hpp"
 #include "services/ingest/pcap_reader.hpp"
 #include "tools/play/player.hpp"
 
@@ -26,8 +28,9 @@ struct Options {
 
 void add_options(CLI::App& app, Options& options) {
   app.set_version_flag("--version", std::string("gvom-play ") + GVOM_VERSION);
-  app.add_option("file", options.file, "a pcap or pcapng recording, or one packed by gzip")
-      ->type_name("FILE.pcap")
+  app.add_option("file", options.file,
+                 "a pcap or pcapng recording, or one packed by gzip; or a bag's packets, which need --port")
+      ->type_name("FILE.pcap|bag:PATH?topic=TOPIC")
       ->required();
   app.add_option("--rate", options.play.rate, "times the recorded pace")
       ->type_name("N")
@@ -58,12 +61,18 @@ bool parse_mapping(const std::string& text, play::PlayOptions& options) {
   return true;
 }
 
+bool is_bag(const std::string& file) {
+  return file.compare(0, 4, "bag:") == 0;
+}
+
 /// What the command line says, or the code to end with.
 tl::expected<Options, ExitCode> parse(int argc, char** argv) {
   Options options;
   CLI::App app("Sends the UDP payloads of a recording at the recorded pace.", "gvom-play");
   add_options(app, options);
-  app.footer("Example:\n  gvom-play os1.pcap --loop");
+  app.footer(
+      "Examples:\n  gvom-play os1.pcap --loop\n"
+      "  gvom-play 'bag:FOLDER?topic=/ouster/lidar_packets' --port 7502");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -73,6 +82,10 @@ tl::expected<Options, ExitCode> parse(int argc, char** argv) {
   for (const std::string& mapping : options.mapped_ports) {
     if (parse_mapping(mapping, options.play)) continue;
     std::cerr << "--map-port " << mapping << ": expected FROM:TO, ports from 1 to 65535\n";
+    return tl::make_unexpected(ExitCode::usage);
+  }
+  if (is_bag(options.file) && options.port == 0) {
+    std::cerr << "a bag does not tell the ports of its packets: say --port P\n";
     return tl::make_unexpected(ExitCode::usage);
   }
   return options;
@@ -101,12 +114,18 @@ ExitCode fail(const std::string& message, ExitCode code) {
   return code;
 }
 
+tl::expected<std::unique_ptr<ingest::PacketSource>, std::string> open(const std::string& file,
+                                                                      ingest::SourceState& state) {
+  if (is_bag(file)) return ingest::open_bag_packets(file, state);
+  return ingest::PcapReader::open(file, std::nullopt, state);
+}
+
 ExitCode run(int argc, char** argv) {
   services::Lifecycle lifecycle;
   const auto options = parse(argc, argv);
   if (!options) return options.error();
   ingest::SourceState state;
-  auto recording = ingest::PcapReader::open(options->file, std::nullopt, state);
+  auto recording = open(options->file, state);
   if (!recording) return fail(recording.error(), ExitCode::bad_data);
   auto sender = play::UdpSender::open(options->host, options->interface);
   if (!sender) return fail(sender.error(), ExitCode::unavailable);
