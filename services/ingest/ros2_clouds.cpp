@@ -4,6 +4,7 @@
 
 #include "ipc/clock.hpp"
 #include "services/ingest/arrival_clock.hpp"
+#include "services/ingest/ros2_publisher.hpp"
 
 namespace gvom::ingest {
 namespace {

@@ -8,9 +8,9 @@
 #include <tl/expected.hpp>
 
 #include "services/common/dds/reader.hpp"
+#include "services/common/dds/topic_owner.hpp"
 #include "services/ingest/cloud_sweep.hpp"
 #include "services/ingest/packet.hpp"
-#include "services/ingest/ros2_publisher.hpp"
 #include "services/ingest/source.hpp"
 
 namespace gvom::ingest {
@@ -40,7 +40,7 @@ class Ros2Clouds final : public Source {
   std::string name_;
   CloudSweep sweeps_;
   std::int64_t clock_offset_ns_;
-  TopicOwner owner_;
+  dds::TopicOwner owner_;
   SourceState state_;
   ros::PointCloud2In cloud_;
   bool told_foreign_ = false;

@@ -1,4 +1,5 @@
-// gvom-odometry: publishes T_odom_base from a recording. It is the clock of a replay.
+// gvom-odometry: publishes T_odom_base from a recording, and is the clock of a replay; or as ROS 2 has it
+// now.
 #include <spdlog/spdlog.h>
 
 #include "services/common/bus/join.hpp"
@@ -6,6 +7,7 @@
 #include "services/common/config_concerns.hpp"
 #include "services/common/log.hpp"
 #include "services/common/odometry_file.hpp"
+#include "services/odometry/live.hpp"
 #include "services/odometry/rate.hpp"
 #include "services/odometry/replay.hpp"
 
@@ -26,8 +28,8 @@ struct Options {
 void add_options(CLI::App& app, Options& options) {
   app.add_option(
          "--source", options.source,
-         "instead of odometry.source: tum:FILE, euroc:FILE, kitti:FILE?times=FILE, bag:PATH?topic=TOPIC or "
-         "bag:PATH?tf=PARENT/CHILD")
+         "instead of odometry.source: tum:FILE, euroc:FILE, kitti:FILE?times=FILE, bag:PATH?topic=TOPIC, "
+         "bag:PATH?tf=PARENT/CHILD or, live, ros2:/TOPIC")
       ->type_name("URI");
   app.add_option("--rate", options.rate,
                  "times the recorded pace, or max: as fast as the slowest reader takes it, losing nothing")
@@ -66,6 +68,17 @@ ExitCode replay(const std::vector<StampedPose>& poses, const std::vector<std::st
   return code;
 }
 
+ExitCode live(const std::string& source, const services::VehicleConfig& config,
+              services::Lifecycle& lifecycle) {
+  if (const std::string fault = odometry::fault_of(source); !fault.empty()) {
+    spdlog::error("{}", fault);
+    return ExitCode::configuration;
+  }
+  auto runtime = services::join_bus(kName, lifecycle);
+  if (!runtime) return runtime.error();
+  return odometry::run_live(source, services::config_hash(config, kName), *runtime, lifecycle);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -83,6 +96,7 @@ int main(int argc, char** argv) {
     spdlog::error("{}: odometry.source is empty: give one there or with --source URI", config->path);
     return to_int(ExitCode::configuration);
   }
+  if (odometry::is_live(source)) return to_int(live(source, *config, lifecycle));
   std::vector<std::string> warnings;
   const auto poses = services::read_odometry_source(source, warnings);
   if (!poses) {

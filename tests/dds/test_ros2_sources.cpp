@@ -2,7 +2,6 @@
 #include <cstring>
 
 #include "services/common/dds/reader.hpp"
-#include "services/ingest/ros2_publisher.hpp"
 #include "tests/dds/message_file.hpp"
 #include "tests/ingest/bag_fixture.hpp"
 #include "tests/ingest/ouster_builder.hpp"
@@ -139,16 +138,6 @@ TEST_CASE("a second publisher's clouds are not used while the first publishes") 
   const bool is_second = counts(
       *source, [](const auto& counters) { return counters.second_sensor_packets + counters.sweeps; }, 2);
   CHECK((is_second || source->counters().sweeps == 2));
-}
-
-TEST_CASE("a topic is another publisher's when the first has been silent for a second") {
-  ingest::TopicOwner owner;
-  CHECK(owner.is_owner(1, 0));
-  CHECK_FALSE(owner.is_owner(2, 900'000'000));
-  CHECK(owner.is_owner(1, 1'000'000'000));
-  CHECK_FALSE(owner.is_owner(2, 2'000'000'000));
-  CHECK(owner.is_owner(2, 2'000'000'001));
-  CHECK_FALSE(owner.is_owner(1, 2'000'000'002));
 }
 
 TEST_CASE("a driver's Ouster packets are those of a port") {
