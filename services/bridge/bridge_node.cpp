@@ -29,6 +29,11 @@ ros::LayersView view_of(const ipc::LayersSample& sample) {
   return view;
 }
 
+/// No more points than a plan has room for, whatever it says.
+ipc::Span<const ipc::Plan::Point> points_of(const ipc::Plan::Point* points, std::uint32_t count) {
+  return {points, std::min<std::size_t>(count, ipc::Plan::kMaxPoints)};
+}
+
 }  // namespace
 
 BridgeNode::BridgeNode(const services::VehicleConfig& config, MessageSettings settings, Bus& bus,
@@ -167,10 +172,11 @@ void BridgeNode::take_plan() {
     const ipc::Plan& plan = **sample;
     const std::int64_t stamp_ns = plan.header.stamp_ns;
     if (wanted(TopicId::plan))
-      send(TopicId::plan, stamp_ns, maker_.path(TopicId::plan, stamp_ns, {plan.path, plan.path_count}));
+      send(TopicId::plan, stamp_ns,
+           maker_.path(TopicId::plan, stamp_ns, points_of(plan.path, plan.path_count)));
     if (wanted(TopicId::trajectory))
       send(TopicId::trajectory, stamp_ns,
-           maker_.path(TopicId::trajectory, stamp_ns, {plan.trajectory, plan.trajectory_count}));
+           maker_.path(TopicId::trajectory, stamp_ns, points_of(plan.trajectory, plan.trajectory_count)));
   }
 }
 
