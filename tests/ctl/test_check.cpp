@@ -79,6 +79,14 @@ TEST_CASE("check: a vehicle that works has no error, in words and in JSON") {
   CHECK(json["findings"][0]["what"] == "configuration");
 }
 
+TEST_CASE("check: odometry of ROS 2 is live, and no file is looked for") {
+  const Checked checked;
+  const Ended ended = checked.check({"odometry.source=ros2:/odom"});
+  INFO(ended.output);
+  CHECK(ended.code == 0);
+  CHECK_THAT(ended.output, Contains("ok       odometry          ros2:/odom: live"));
+}
+
 TEST_CASE("check: what does not work here is an error, and the rest is looked at all the same") {
   const Checked checked;
   const auto fails = [&](const std::vector<std::string>& sets, const std::string& words) {

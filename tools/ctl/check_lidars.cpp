@@ -57,8 +57,8 @@ Finding check_receive_buffers() {
   const std::string limit = fmt::format("net.core.rmem_max is {} bytes", limit_bytes);
   if (limit_bytes >= ingest::kSufficientBuffer) return {Level::ok, "receive buffers", limit};
   return {Level::warning, "receive buffers",
-          fmt::format("{}, too few for a burst of packets: sysctl net.core.rmem_max={}", limit,
-                      ingest::kWantedBuffer)};
+          fmt::format("{}, too few for a burst of packets, or a cloud of ROS 2: sysctl net.core.rmem_max={}",
+                      limit, ingest::kWantedBuffer)};
 }
 
 }  // namespace
@@ -69,7 +69,7 @@ Findings check_lidars(const services::VehicleConfig& config) {
   bool any_live = false;
   for (const LidarConfig& lidar : config.lidars) {
     findings.push_back(check_source(lidar, opened));
-    any_live = any_live || ingest::live_port(lidar.source);
+    any_live = any_live || ingest::live_port(lidar.source) || lidar.source.rfind("ros2:", 0) == 0;
   }
   if (any_live) findings.push_back(check_receive_buffers());
   return findings;
