@@ -91,6 +91,7 @@ export class MockBridge {
   /** @returns {Promise<number>} the port */
   listen(port = 0, address = '127.0.0.1') {
     const start_ms = performance.now() - 1000 * this.time_s;
+    this.started_wall_s = Date.now() / 1000 - this.time_s;
     this.timer = setInterval(() => this.step((performance.now() - start_ms) / 1000), 1000 * this.step_s);
     return new Promise((resolve) => { this.http.listen(port, address, () => resolve(this.http.address().port)); });
   }
