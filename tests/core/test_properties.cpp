@@ -22,8 +22,8 @@ TEST_CASE("Random drives through a cube give the oracle's bits") {
 }
 
 TEST_CASE("Random drives through a tower of two mask words give the oracle's bits") {
-  race(Backend::cpu, {8, 128, 30, 80, false}, 700, 6);
-  race(Backend::cpu, {8, 128, 30, 80, true}, 800, 6);
+  race(Backend::cpu, {8, 128, 30, 80, false}, 700, seed_count(6));
+  race(Backend::cpu, {8, 128, 30, 80, true}, 800, seed_count(6));
   race(Backend::cpu, {64, 128, 20, 200, false}, 900, 3);
 }
 

@@ -88,7 +88,8 @@ TEST_CASE("failures are listed with what drives them again") {
   const std::string text = failures_of({kMaking, six()}, "/logs");
   CHECK(text.find("seed 1:") == std::string::npos);
   CHECK(text.find("seed 6: gave up\n  log: /logs/campaign-6-6.csv\n") != std::string::npos);
-  CHECK(text.find("gvom-drive --config a.yaml --length 60 --seeds 4 --out again --strip all --mcap\n") != std::string::npos);
+  CHECK(text.find("gvom-drive --config a.yaml --length 60 --seeds 4 --out again --strip all --mcap\n") !=
+        std::string::npos);
 }
 
 TEST_CASE("a line is read back as it was written, with commas in its end and without a way") {
