@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "services/bridge/foxglove_server.hpp"
-#include "tests/bridge/scratch_folder.hpp"
 #include "tests/bridge/ws_client.hpp"
+#include "tests/tools/temporary_folder.hpp"
 
 namespace {
 
@@ -169,7 +169,7 @@ std::string get(const FoxgloveServer& server, const std::string& target) {
 }
 
 TEST_CASE("browsers get the page's files and nothing beside them") {
-  const test::ScratchFolder folder;
+  const test::TemporaryFolder folder;
   std::filesystem::create_directories(folder.path() + "/page/assets");
   std::ofstream(folder.path() + "/secret.txt") << "secret";
   std::ofstream(folder.path() + "/page/index.html") << "<p>hello";

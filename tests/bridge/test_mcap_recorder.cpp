@@ -3,8 +3,8 @@
 
 #include "services/bridge/mcap_recorder.hpp"
 #include "tests/bridge/mcap_file.hpp"
-#include "tests/bridge/scratch_folder.hpp"
 #include "tests/bridge/ws_client.hpp"
+#include "tests/tools/temporary_folder.hpp"
 
 namespace {
 
@@ -24,7 +24,7 @@ std::vector<std::string> files_in(const std::string& folder) {
 }
 
 TEST_CASE("the topics that are asked for are recorded, with schema and quality of service") {
-  const test::ScratchFolder folder;
+  const test::TemporaryFolder folder;
   bridge::RecorderOptions options;
   options.folder = folder.path() + "/new/one";
   options.topics = {TopicId::costmap, TopicId::status};
@@ -54,7 +54,7 @@ TEST_CASE("the topics that are asked for are recorded, with schema and quality o
 }
 
 TEST_CASE("what a slow disk leaves no room for is dropped and counted") {
-  const test::ScratchFolder folder;
+  const test::TemporaryFolder folder;
   bridge::RecorderOptions options;
   options.folder = folder.path();
   options.topics = {TopicId::layers};
@@ -78,7 +78,7 @@ TEST_CASE("a file that cannot be written ends the recording, in words") {
 }
 
 TEST_CASE("a folder that is taken away ends the recording when the next file is made") {
-  const test::ScratchFolder folder;
+  const test::TemporaryFolder folder;
   bridge::RecorderOptions options;
   options.folder = folder.path() + "/gone";
   options.topics = {TopicId::layers};

@@ -6,7 +6,7 @@
 
 #include "services/common/mcap/split_writer.hpp"
 #include "tests/bridge/mcap_file.hpp"
-#include "tests/bridge/scratch_folder.hpp"
+#include "tests/tools/temporary_folder.hpp"
 
 namespace {
 
@@ -26,7 +26,7 @@ Bytes noise(std::size_t size, std::uint32_t seed) {
 
 TEST_CASE("messages come back as they were written, packed or not") {
   const auto packing = GENERATE(Packing::none, Packing::zstd);
-  const test::ScratchFolder folder;
+  const test::TemporaryFolder folder;
   const std::string path = folder.path() + "/a.mcap";
   auto writer = mcap::Writer::create(path, {packing, 1000});
   REQUIRE(writer);
@@ -59,7 +59,7 @@ TEST_CASE("messages come back as they were written, packed or not") {
 }
 
 TEST_CASE("a file without messages is one") {
-  const test::ScratchFolder folder;
+  const test::TemporaryFolder folder;
   auto writer = mcap::Writer::create(folder.path() + "/a.mcap");
   REQUIRE(writer);
   writer->add_channel(kCloud);
@@ -70,7 +70,7 @@ TEST_CASE("a file without messages is one") {
 }
 
 TEST_CASE("what was flushed is there without an end, as after a kill") {
-  const test::ScratchFolder folder;
+  const test::TemporaryFolder folder;
   const std::string path = folder.path() + "/a.mcap";
   auto writer = mcap::Writer::create(path);
   REQUIRE(writer);
@@ -103,7 +103,7 @@ class FileLimit {
 };
 
 TEST_CASE("a full disk is told with the file's name, and what was written stays whole") {
-  const test::ScratchFolder folder;
+  const test::TemporaryFolder folder;
   const std::string path = folder.path() + "/a.mcap";
   auto writer = mcap::Writer::create(path, {Packing::zstd, 1000});
   REQUIRE(writer);
@@ -135,7 +135,7 @@ TEST_CASE("a folder that is not there, and a device that is full, are named") {
 }
 
 TEST_CASE("a recording is split by size, and each file stands alone") {
-  const test::ScratchFolder folder;
+  const test::TemporaryFolder folder;
   mcap::SplitWriter writer(folder.path() + "/run", 20'000, {Packing::zstd, 4000});
   const auto cloud = writer.add_channel(kCloud);
   for (int i = 0; i < 50; ++i) REQUIRE(writer.write(cloud, i, noise(1000, std::uint32_t(i))));

@@ -171,7 +171,8 @@ TEST_CASE("an output holds a montage, an overview and every layer; numbered ones
   for (const char* name : {"montage.png", "overview.png", "ground.png", "000000-montage.png",
                            "000001-montage.png", "000001/meta.json"})
     CHECK(std::filesystem::exists(folder.path() + "/out/" + name));
-  for (const char* layer : kLayerNames) {
+  for (const std::string_view name : kLayerNames) {
+    const std::string layer(name);
     CHECK(std::filesystem::exists(folder.path() + "/out/" + layer + ".png"));
     CHECK(std::filesystem::exists(folder.path() + "/out/000000/" + layer + ".npy"));
   }

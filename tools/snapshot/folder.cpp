@@ -93,7 +93,7 @@ json meta_of(const LayersPicture& picture) {
 }
 
 std::string layer_path(const std::string& folder, std::size_t layer) {
-  return folder + "/" + kLayerNames[layer] + ".npy";
+  return folder + "/" + std::string(kLayerNames[layer]) + ".npy";
 }
 
 }  // namespace

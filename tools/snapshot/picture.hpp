@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ipc/messages.hpp"
+#include "services/common/ros/layers_view.hpp"
 
 namespace gvom::snapshot {
 
@@ -54,19 +55,6 @@ struct LayersPicture {
   }
 };
 
-/// The layers' names in the order of LayerId; files carry them.
-inline constexpr std::array<const char*, kLayers> kLayerNames = {"height",
-                                                                 "inferred_height",
-                                                                 "slope_x",
-                                                                 "slope_y",
-                                                                 "slope",
-                                                                 "roughness",
-                                                                 "obstacle_density",
-                                                                 "negative_delta",
-                                                                 "clearance",
-                                                                 "last_seen",
-                                                                 "flags",
-                                                                 "visibility",
-                                                                 "cost"};
+using ros::kLayerNames;  // files carry them
 
 }  // namespace gvom::snapshot
