@@ -41,17 +41,18 @@ struct FanInput {
 };
 
 /// Each trajectory holds a curvature for a while and then pursues the optimised path, or drives the path's
-/// own curvatures, at one of three speeds: the slower ones may turn more tightly and steer more per metre.
-/// Ackermann and skid-steer differ by their limits only: a skid-steer vehicle that turns on the spot tears up
-/// the ground and its odometry.
+/// own curvatures, at one of three speeds: the slower ones may turn more tightly and steer more per metre,
+/// and go on as fast as their bends allow. Ackermann and skid-steer differ by their limits only: a skid-steer
+/// vehicle that turns on the spot tears up the ground and its odometry.
 ///
 /// A trajectory ends before the first pose that does not fit or whose stance is bad. A vehicle that stands so
 /// may leave: on its first `kLeave_m` no pose may be worse than where it stands.
 ///
 /// The cost is the costmap's along it, `kPerSecond` for its time, and what is left to pay at its end: the
-/// cost to go, and turning from there into its direction. One that ends early pays more, one that leads
-/// nowhere still more, and one that cannot stop before its end or within what is seen most. What was chosen
-/// last goes on a little cheaper.
+/// cost to go with its time at the speed that is asked for, and turning from there into its direction; near
+/// the last waypoint also the way out of a turning circle that it lies within. One that ends early pays more,
+/// one that leads nowhere still more, and one that cannot stop before its end or within what is seen most.
+/// What was chosen last goes on a little cheaper.
 class Fan {
  public:
   static constexpr double kStep_m = 0.25;
