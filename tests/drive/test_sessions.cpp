@@ -1,11 +1,30 @@
 // Campaigns: what is driven, and with what. That the planner arrives is in test_ten_worlds.cpp.
 #include <catch2/catch.hpp>
 
+#include <map>
+
 #include "services/common/config_file.hpp"
+#include "services/common/mcap/mcap_reader.hpp"
+#include "tests/tools/temporary_folder.hpp"
 #include "tools/drive/cli/campaign.hpp"
 
 using namespace gvom;
 using namespace gvom::driving;
+
+namespace {
+
+/// Messages of each topic.
+std::map<std::string, std::size_t> messages_in(const std::string& path) {
+  auto file = mcap::McapReader::open(path);
+  REQUIRE(file);
+  std::map<std::string, std::size_t> count;
+  mcap::Message message;
+  while (file->next(message).value()) ++count[message.channel->topic];
+  CHECK(file->damaged() == 0);
+  return count;
+}
+
+}  // namespace
 
 TEST_CASE("a campaign drives what it has not driven, and every lidar is what the vehicle's file says") {
   const auto config = services::load_vehicle_config(GVOM_SOURCE_DIR "/config/vehicles/warthog.yaml");
@@ -15,6 +34,8 @@ TEST_CASE("a campaign drives what it has not driven, and every lidar is what the
   options.last_seed = 9;
   options.driven = {8};
   options.length_m = 40;
+  const test::TemporaryFolder folder;
+  options.keeping = {folder.path(), Strips::none, true};
   std::vector<std::uint64_t> ended;
   const auto rows = run_campaign(*config, options, [&](const Row& row) { ended.push_back(row.seed); });
   REQUIRE(rows);
@@ -22,6 +43,10 @@ TEST_CASE("a campaign drives what it has not driven, and every lidar is what the
   CHECK(ended == std::vector<std::uint64_t>{9});
   CHECK(rows->front().seed == 9);
   CHECK(rows->front().result.outcome == Outcome::arrived);
+  const auto messages = messages_in(folder.path() + "/" + rows->front().world + "-9.mcap");
+  const std::size_t turns = rows->front().result.log.steps.size();
+  for (const char* topic : {"/gvom/costmap", "/gvom/layers", "/tf", "/gvom/plan", "/gvom/trajectory"})
+    CHECK(messages.at(topic) == turns);
   CHECK(sensor_of(*config) == sim::Sensor::os1_64);
   const auto moose = services::load_vehicle_config(GVOM_SOURCE_DIR "/config/vehicles/moose.yaml");
   REQUIRE(moose);
