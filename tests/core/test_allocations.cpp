@@ -1,48 +1,11 @@
 // After its first maps the pipeline allocates nothing.
-#include <atomic>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstdlib>
-#include <new>
 
 #include "core/mapper.hpp"
 #include "tests/core/random.hpp"
 #include "tests/oracle/layers.hpp"
-
-namespace {
-std::atomic<std::uint64_t> allocations{0};
-}
-
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define __SANITIZE_ADDRESS__ 1  // as g++ has it
-#endif
-#endif
-
-#ifdef __SANITIZE_ADDRESS__
-constexpr bool kCountsMalloc = false;  // the sanitizer's own malloc must stay
-#else
-constexpr bool kCountsMalloc = true;
-
-// In place of the C library's, which operator new and Eigen call too.
-extern "C" {
-void* __libc_malloc(std::size_t size);
-void* __libc_calloc(std::size_t count, std::size_t size);
-void* __libc_realloc(void* memory, std::size_t size);
-void* malloc(std::size_t size) {
-  ++allocations;
-  return __libc_malloc(size);
-}
-void* calloc(std::size_t count, std::size_t size) {
-  ++allocations;
-  return __libc_calloc(count, size);
-}
-void* realloc(void* memory, std::size_t size) {
-  ++allocations;
-  return __libc_realloc(memory, size);
-}
-}
-#endif
+#include "tests/support/allocations.hpp"
 
 namespace gvom::test {
 namespace {
@@ -138,25 +101,22 @@ class Drive {
 };
 
 TEST_CASE("A thousand sweeps after the first few allocate nothing") {
-  if (!kCountsMalloc) {
-    WARN("SKIPPED: allocations are not counted under the address sanitizer");
-    return;
-  }
+  if (!counts_allocations()) return;
   Drive drive;
   for (int i = 0; i < 20; ++i) drive.step();
-  const std::uint64_t before = allocations;
+  const std::uint64_t before = allocations();
   for (int i = 0; i < 1000; ++i) drive.step();
-  const std::uint64_t after = allocations;
+  const std::uint64_t after = allocations();
   CHECK(after - before == 0);
   CHECK(drive.added() == 1020);
   CHECK(drive.failures() == 0);
 }
 
 TEST_CASE("The count of allocations counts") {
-  if (!kCountsMalloc) return;
-  const std::uint64_t before = allocations;
+  if (!counts_allocations()) return;
+  const std::uint64_t before = allocations();
   const std::vector<int> some(1000);
-  CHECK(allocations > before);
+  CHECK(allocations() > before);
   CHECK(some.size() == 1000);
 }
 
