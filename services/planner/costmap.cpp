@@ -29,9 +29,11 @@ Costmap::Costmap(const CostmapConfig& config, const VehicleLimits& vehicle, int 
       cost_(square(n_xy)),
       smooth_(square(n_xy)),
       distance_m_(square(n_xy)),
+      soft_m_(square(n_xy)),
       ground_m_(square(n_xy)),
       lethal_(square(n_xy)),
       known_(square(n_xy)),
+      soft_(square(n_xy)),
       open_(square(n_xy)),
       marked_(square(n_xy + 2)),
       bridging_(n_xy),
@@ -41,6 +43,7 @@ void Costmap::update(const MapView& map) {
   cells_ = map.cells();
   find_lethal(map);
   transform_.run(lethal_.data(), cells_.n, cells_.cell_m, distance_m_.data());
+  find_soft(map);
   find_known(map);
   weigh(map);
 }
@@ -73,6 +76,11 @@ void Costmap::find_lethal(const MapView& map) {
       lethal[x] = lethal[x] | (here[x + 1] & (marks > 0));
     }
   }
+}
+
+void Costmap::find_soft(const MapView& map) {
+  for (int i = 0; i < cells_.count(); ++i) soft_[i] = (map.flags[i] & kSoft) != 0;
+  transform_.run(soft_.data(), cells_.n, cells_.cell_m, soft_m_.data());
 }
 
 void Costmap::find_known(const MapView& map) {
@@ -128,14 +136,14 @@ void Costmap::weigh(const MapView& map) {
   for (int y = 0; y < n; ++y) {
     const int row = y * n;
     const std::uint8_t* const marked = marked_.data() + (y + 1) * (n + 2) + 1;
-    const std::uint8_t* const flags = map.flags + row;
+    const float* const from_soft = soft_m_.data() + row;
     const std::uint8_t* const visibility = map.visibility + row;
     const std::uint8_t* const known = known_.data() + row;
     const float* const distance = distance_m_.data() + row;
     float* const cost = cost_.data() + row;
     float* const smooth = smooth_.data() + row;
     for (int x = 0; x < n; ++x) {
-      const bool soft = (flags[x] & kSoft) | marked[x];  // what is marked and lethal has no use for it
+      const bool soft = (from_soft[x] < reach_m) | marked[x];  // what is marked and lethal has no use for it
       float sum = 1 + slope_weight * share(map.slope[row + x], slope_full) +
                   roughness_weight * share(map.roughness[row + x], roughness_full);
       sum += soft ? soft_weight : 0;

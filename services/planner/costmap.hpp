@@ -20,8 +20,9 @@ struct CostSample {
   Eigen::Vector2d gradient{0, 0};  ///< Per metre.
 };
 
-/// The weighted sum of the layers (the paper's section on tests), grown around what is lethal. Made anew for
-/// each map, without allocating.
+/// The weighted sum of the layers (the paper's section on tests), grown around what is lethal and around what
+/// is SOFT: its sides meet a bush, too, and a rock little higher than its clearance is as often SOFT as HARD.
+/// Made anew for each map, without allocating.
 class Costmap {
  public:
   /// @param n_xy the largest map, columns along an edge
@@ -56,6 +57,7 @@ class Costmap {
 
  private:
   void find_lethal(const MapView& map);
+  void find_soft(const MapView& map);
   void find_known(const MapView& map);
   /// Ground counts as seen where `gap` columns without it, one (dx, dy) after the other, lie between two
   /// with.
@@ -71,9 +73,11 @@ class Costmap {
   std::vector<float> cost_;
   std::vector<float> smooth_;
   std::vector<float> distance_m_;
+  std::vector<float> soft_m_;    ///< From the cell's middle to the nearest SOFT cell's.
   std::vector<float> ground_m_;  ///< Its height; NaN: not known.
   std::vector<std::uint8_t> lethal_;
   std::vector<std::uint8_t> known_;
+  std::vector<std::uint8_t> soft_;      ///< 1: SOFT.
   std::vector<std::uint8_t> open_;      ///< 1: without ground, and no hole.
   std::vector<std::uint8_t> marked_;    ///< 1: flagged as lethal; with one cell more on each side.
   std::vector<std::uint8_t> bridging_;  ///< Of one row.

@@ -32,20 +32,30 @@ TEST_CASE("Layers add to the cost of a metre by their weights") {
   set(1, [&](int i) { map.slope[i] = 0.1F; });       // a quarter of 0.4 rad, of 4
   set(2, [&](int i) { map.slope[i] = 1.2F; });       // more than full
   set(3, [&](int i) { map.roughness[i] = 0.01F; });  // half of 0.02 m^2, of 6
-  set(4, [&](int i) { map.flags[i] = kSoft; });
-  set(5, [&](int i) { map.visibility[i] = static_cast<std::uint8_t>(Visibility::remembered); });
-  set(6, [&](int i) { map.slope[i] = map.roughness[i] = std::nanf(""); });
-  set(7, [&](int i) {
+  set(4, [&](int i) { map.visibility[i] = static_cast<std::uint8_t>(Visibility::remembered); });
+  set(5, [&](int i) { map.slope[i] = map.roughness[i] = std::nanf(""); });
+  set(6, [&](int i) {
     map.slope[i] = 0.2F;
     map.roughness[i] = 0.005F;
-    map.flags[i] = kSoft;
   });
   const Costmap costmap = costmap_of(map);
-  const double expected[] = {1, 2, 5, 4, 9, 2, 1, 1 + 2 + 1.5 + 8};
-  for (int x = 0; x < 8; ++x) {
+  const double expected[] = {1, 2, 5, 4, 2, 1, 1 + 2 + 1.5};
+  for (int x = 0; x < 7; ++x) {
     INFO("column " << x);
     CHECK(cost_at(costmap, x, 10) == Approx(expected[x]));
   }
+}
+
+TEST_CASE("A bush costs wherever the vehicle touches it, not only where base_link passes") {
+  FlatMap map(kEdge);
+  map.flag(20, 20, 20, 20, kSoft);
+  const Costmap costmap = costmap_of(map);
+  CHECK(cost_at(costmap, 20, 20) == 9);
+  CHECK(cost_at(costmap, 22, 20) == 9);  // 0.8 m off: half the width and the margin are 0.9 m
+  CHECK(cost_at(costmap, 20, 18) == 9);
+  CHECK(cost_at(costmap, 23, 20) == 1);  // 1.2 m
+  CHECK(cost_at(costmap, 22, 22) == 1);  // 1.13 m
+  CHECK(costmap.lethal()[map.at(20, 20)] == 0);
 }
 
 TEST_CASE("Beside a trunk the cost falls from lethal to that of the ground") {
