@@ -5,50 +5,15 @@
 //   dds_peer DOMAIN hear-graph
 //   dds_peer DOMAIN send-cloud TOPIC POINTS    (one for each line on stdin)
 //   dds_peer DOMAIN send-file TOPIC FILE TYPE  (likewise its messages: a size in four bytes, then CDR)
-#include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <fstream>
-#include <functional>
-#include <memory>
-#include <mutex>
-#include <string>
-#include <vector>
-
-#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
-#include <fastdds/dds/domain/DomainParticipant.hpp>
-#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
-#include <fastdds/dds/domain/DomainParticipantListener.hpp>
-#include <fastdds/dds/publisher/DataWriter.hpp>
-#include <fastdds/dds/publisher/DataWriterListener.hpp>
-#include <fastdds/dds/publisher/Publisher.hpp>
-#include <fastdds/dds/publisher/qos/DataWriterQos.hpp>
-#include <fastdds/dds/subscriber/DataReader.hpp>
-#include <fastdds/dds/subscriber/DataReaderListener.hpp>
-#include <fastdds/dds/subscriber/SampleInfo.hpp>
-#include <fastdds/dds/subscriber/Subscriber.hpp>
-#include <fastdds/dds/subscriber/qos/DataReaderQos.hpp>
-#include <fastdds/dds/topic/Topic.hpp>
-#include <fastdds/dds/topic/TopicDataType.hpp>
 
 #include "messagesPubSubTypes.h"
+#include "tests/dds/fast_dds.hpp"
 
 namespace {
 
-namespace fast = eprosima::fastdds::dds;
-namespace rtps = eprosima::fastrtps::rtps;
-
-constexpr std::uint32_t kSocketBuffer = 4 << 20;
-
-/// One line, whole, whichever thread says it.
-template <typename... Args>
-void say(const char* format, Args... args) {
-  static std::mutex mutex;
-  const std::lock_guard<std::mutex> lock(mutex);
-  std::printf(format, args...);
-  std::printf("\n");
-  std::fflush(stdout);
-}
+using namespace gvom::dds::test;
 
 std::string hex(const void* bytes, std::size_t size) {
   std::string text;
@@ -105,12 +70,6 @@ class Ear : public fast::DataReaderListener {
   }
 };
 
-class Mouth : public fast::DataWriterListener {
-  void on_publication_matched(fast::DataWriter*, const fast::PublicationMatchedStatus& status) override {
-    say("matched %d", status.current_count);
-  }
-};
-
 /// Says what others offer.
 class Discovery : public fast::DomainParticipantListener {
   void on_publisher_discovery(fast::DomainParticipant*, rtps::WriterDiscoveryInfo&& found) override {
@@ -121,64 +80,6 @@ class Discovery : public fast::DomainParticipantListener {
         hex(found.info.guid()).c_str(), user_data.c_str());
   }
 };
-
-using Bytes = std::vector<std::uint8_t>;
-
-/// Messages that are serialised already.
-class RawType : public fast::TopicDataType {
- public:
-  explicit RawType(const char* name) {
-    setName(name);
-    m_typeSize = 1 << 20;
-  }
-  bool serialize(void* data, rtps::SerializedPayload_t* payload) override {
-    const Bytes& bytes = *static_cast<Bytes*>(data);
-    payload->encapsulation = CDR_LE;
-    payload->length = static_cast<std::uint32_t>(bytes.size());
-    std::copy(bytes.begin(), bytes.end(), payload->data);
-    return true;
-  }
-  bool deserialize(rtps::SerializedPayload_t*, void*) override { return false; }
-  std::function<uint32_t()> getSerializedSizeProvider(void* data) override {
-    return [data] { return static_cast<std::uint32_t>(static_cast<Bytes*>(data)->size()); };
-  }
-  void* createData() override { return new Bytes; }
-  void deleteData(void* data) override { delete static_cast<Bytes*>(data); }
-  bool getKey(void*, rtps::InstanceHandle_t*, bool) override { return false; }
-};
-
-fast::DomainParticipant* join(int domain, fast::DomainParticipantListener* listener) {
-  fast::DomainParticipantQos qos = fast::PARTICIPANT_QOS_DEFAULT;
-  const auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
-  udp->interfaceWhiteList = {"127.0.0.1"};
-  udp->receiveBufferSize = kSocketBuffer;
-  udp->sendBufferSize = kSocketBuffer;
-  qos.transport().use_builtin_transports = false;
-  qos.transport().user_transports.push_back(udp);
-  // With a mask the participant's listener would take the readers' data, too.
-  return fast::DomainParticipantFactory::get_instance()->create_participant(
-      static_cast<fast::DomainId_t>(domain), qos, listener, fast::StatusMask::none());
-}
-
-fast::Topic* open_topic(fast::DomainParticipant* participant, fast::TopicDataType* type,
-                        const char* type_name, const std::string& topic) {
-  const fast::TypeSupport support(type);
-  support.register_type(participant, type_name);
-  return participant->create_topic(topic, type_name, fast::TOPIC_QOS_DEFAULT);
-}
-
-/// Reliable, and the newest one of those who were there before, if it is latched.
-void hear(fast::DomainParticipant* participant, fast::Topic* topic, bool latched,
-          fast::DataReaderListener* ear) {
-  fast::DataReaderQos qos = fast::DATAREADER_QOS_DEFAULT;
-  qos.reliability().kind = fast::RELIABLE_RELIABILITY_QOS;
-  if (latched) qos.durability().kind = fast::TRANSIENT_LOCAL_DURABILITY_QOS;
-  qos.history().kind = fast::KEEP_LAST_HISTORY_QOS;
-  qos.history().depth = 1;
-  qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
-  fast::Subscriber* const subscriber = participant->create_subscriber(fast::SUBSCRIBER_QOS_DEFAULT);
-  if (subscriber->create_datareader(topic, qos, ear) == nullptr) say("no reader");
-}
 
 /// Points of 32 bytes; the stamp says which cloud of them all it is.
 Cloud make_cloud(int number, unsigned points) {
@@ -194,16 +95,6 @@ Cloud make_cloud(int number, unsigned points) {
     cloud.data()[i] = static_cast<std::uint8_t>(i * 7 + static_cast<std::size_t>(number));
   cloud.is_dense(true);
   return cloud;
-}
-
-/// As drivers do: best effort.
-fast::DataWriter* make_writer(fast::DomainParticipant* participant, fast::Topic* topic, Mouth* mouth) {
-  fast::DataWriterQos qos = fast::DATAWRITER_QOS_DEFAULT;
-  qos.reliability().kind = fast::BEST_EFFORT_RELIABILITY_QOS;
-  qos.history().depth = 1;
-  qos.publish_mode().kind = fast::SYNCHRONOUS_PUBLISH_MODE;
-  qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
-  return participant->create_publisher(fast::PUBLISHER_QOS_DEFAULT)->create_datawriter(topic, qos, mouth);
 }
 
 void send_clouds(fast::DataWriter* writer, unsigned points) {

@@ -9,11 +9,12 @@
 
 namespace gvom::dds::test {
 
-Peer::Peer(const std::vector<std::string>& arguments) {
+Peer::Peer(const std::vector<std::string>& arguments, const std::string& program) {
   int in[2];
   int out[2];
   if (::pipe2(in, O_CLOEXEC) != 0 || ::pipe2(out, O_CLOEXEC) != 0) return;
-  std::vector<const char*> argv{"dds_peer"};
+  const std::string path = GVOM_DDS_PEERS "/" + program;
+  std::vector<const char*> argv{program.c_str()};
   for (const std::string& argument : arguments) argv.push_back(argument.c_str());
   argv.push_back(nullptr);
   pid_ = ::fork();
@@ -21,7 +22,7 @@ Peer::Peer(const std::vector<std::string>& arguments) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     ::dup2(in[0], STDIN_FILENO);
     ::dup2(out[1], STDOUT_FILENO);
-    ::execv(GVOM_DDS_PEER, const_cast<char* const*>(argv.data()));
+    ::execv(path.c_str(), const_cast<char* const*>(argv.data()));
     ::_exit(127);
   }
   ::close(in[0]);

@@ -1,4 +1,4 @@
-// The Fast DDS peer as a child (peer.cpp), and what it says.
+// A Fast DDS peer as a child (peer.cpp, robot.cpp), and what it says.
 #pragma once
 
 #include <chrono>
@@ -12,7 +12,7 @@ namespace gvom::dds::test {
 class Peer {
  public:
   /// `arguments`: the domain, the mode and what it wants. It dies with the test.
-  explicit Peer(const std::vector<std::string>& arguments);
+  explicit Peer(const std::vector<std::string>& arguments, const std::string& program = "dds_peer");
   ~Peer();
   Peer(const Peer&) = delete;
   Peer& operator=(const Peer&) = delete;
