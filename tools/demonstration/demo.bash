@@ -13,10 +13,10 @@ check_shared_memory() {
 
 build() {  # build TARGET...
   if command -v ccache > /dev/null; then export CMAKE_CXX_COMPILER_LAUNCHER=ccache; fi
-  echo "demo: building (the first time takes some minutes)"
+  echo "${0##*/}: building (the first time takes some minutes)"
   cmake --preset release -DGVOM_TESTS=OFF > "$logs/configure.log" || fail 70 "cmake failed, see $logs/configure.log"
   cmake --build --preset release --parallel "$(nproc)" --target gvom-roudi gvom-ingest gvom-fusion gvom-bridge gvom-summary "$@"
-  services/bridge/page/build.sh build/share/gvom/page || echo "demo: so $page will have nothing to show" >&2
+  services/bridge/page/build.sh build/share/gvom/page || echo "${0##*/}: so $page will have nothing to show" >&2
 }
 
 # Maps, plans and Health for a browser and Foxglove, and as a file. What others may see of it takes no time from the map.

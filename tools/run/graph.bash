@@ -1,6 +1,6 @@
 # shellcheck shell=bash disable=SC2154 # set by who sources this
 # A graph's processes, for gvom-run and tools/demo: start, stop, and what to say when one ends that should not have.
-# Of who sources it: me (its name), fail, bin, logs, out, config, lidars.
+# Of who sources it: fail, bin, logs, out, config, lidars.
 
 declare -A pid_of=()  # the processes that this started and that have not been waited for
 # In the order in which they are stopped: the broker last, for who still lives when it goes aborts.
@@ -23,7 +23,7 @@ stop() {  # stop NAME: returns its exit code
     kill -0 "$pid" 2> /dev/null || break
     sleep 0.05
   done
-  if kill -KILL "$pid" 2> /dev/null; then echo "$me: $1 did not stop: killed" >&2; fi
+  if kill -KILL "$pid" 2> /dev/null; then echo "${0##*/}: $1 did not stop: killed" >&2; fi
   wait "$pid" || code=$?
   return "$code"
 }
@@ -42,14 +42,14 @@ clean_up() {
   if [[ -n ${scratch:-} ]]; then rm -rf "$scratch"; fi
 }
 trap clean_up EXIT
-trap 'echo; echo "$me: interrupted, stopping" >&2; exit 130' INT
+trap 'echo; echo "${0##*/}: interrupted, stopping" >&2; exit 130' INT
 trap 'exit 143' TERM
 trap 'exit 129' HUP
 
 give_up() {  # give_up NAME CODE: a process ended that should not have
   local code=$2
   clean_up
-  echo "$me: $1 ended with exit code $code; the end of $logs/$1.log:" >&2
+  echo "${0##*/}: $1 ended with exit code $code; the end of $logs/$1.log:" >&2
   tail -n 5 "$logs/$1.log" >&2
   ((code > 0)) || code=70
   exit "$code"
@@ -81,8 +81,8 @@ start_broker() {
   await_words gvom-roudi 'is up after' || code=$?
   case $code in
     0) return ;;
-    75) echo "$me: another broker runs on this machine; this leaves it alone. Stop it first." >&2 ;;
-    69) echo "$me: $shared_memory_advice" >&2 ;;
+    75) echo "${0##*/}: another broker runs on this machine; this leaves it alone. Stop it first." >&2 ;;
+    69) echo "${0##*/}: $shared_memory_advice" >&2 ;;
   esac
   give_up gvom-roudi "$code"
 }
