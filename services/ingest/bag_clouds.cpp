@@ -45,10 +45,8 @@ tl::expected<SourceEvent, std::string> BagClouds::next(Sweep& out, std::chrono::
     if (!more) return out.clear(), SourceEvent::kEnd;
     ++state_.counters.packets;
     if (const auto made = make(message, out); !made) {
-      ++state_.counters.foreign_packets;
-      if (!std::exchange(told_foreign_, true))
-        state_.warnings.push_back(name_ + ": message " + std::to_string(message.number) + ": " +
-                                  made.error() + ": it is not used, and neither are others like it");
+      unused_.add(state_, name_ + ": message " + std::to_string(message.number), made.error(),
+                  message.data.size);
       continue;
     }
     shift(out, clock_offset_ns_);

@@ -10,6 +10,7 @@
 #include "services/common/bag/bag_reader.hpp"
 #include "services/ingest/cloud_sweep.hpp"
 #include "services/ingest/packet.hpp"
+#include "services/ingest/unused_messages.hpp"
 
 namespace gvom::ingest {
 
@@ -43,7 +44,7 @@ class BagClouds final : public Source {
   SourceState state_;
   ros::PointCloud2In cloud_;
   std::size_t warnings_told_ = 0;
-  bool told_foreign_ = false;
+  UnusedMessages unused_;
 };
 
 }  // namespace gvom::ingest

@@ -14,19 +14,17 @@ tl::expected<PacketEvent, std::string> BagPackets::next(Packet& out, std::chrono
     if (!more) return PacketEvent::end;
     next_ = 0;
     packets_.clear();
-    if (read_message(message)) continue;
-    ++state_.counters.foreign_packets;
+    read_message(message);
   }
   out = packets_[next_++];
   return PacketEvent::packet;
 }
 
-bool BagPackets::read_message(const bag::Message& message) {
+void BagPackets::read_message(const bag::Message& message) {
   const auto read = unpack(messages_, message.data, message.log_ns, scan_, packets_);
-  if (!read && !std::exchange(told_foreign_, true))
-    state_.warnings.push_back(name_ + ": message " + std::to_string(message.number) + ": " + read.error() +
-                              ": it is not used, and neither are others like it");
-  return read.has_value();
+  if (!read)
+    unused_.add(state_, name_ + ": message " + std::to_string(message.number), read.error(),
+                message.data.size);
 }
 
 void BagPackets::note_warnings() {

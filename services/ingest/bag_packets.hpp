@@ -11,6 +11,7 @@
 #include "services/common/ros/incoming.hpp"
 #include "services/ingest/packet.hpp"
 #include "services/ingest/packet_messages.hpp"
+#include "services/ingest/unused_messages.hpp"
 
 namespace gvom::ingest {
 
@@ -28,7 +29,7 @@ class BagPackets final : public PacketSource {
   [[nodiscard]] bool is_live() const override { return false; }
 
  private:
-  bool read_message(const bag::Message& message);
+  void read_message(const bag::Message& message);
   void note_warnings();
 
   bag::BagReader bag_;
@@ -39,7 +40,7 @@ class BagPackets final : public PacketSource {
   std::vector<Packet> packets_;  // of the newest message
   std::size_t next_ = 0;
   std::size_t warnings_told_ = 0;
-  bool told_foreign_ = false;
+  UnusedMessages unused_;
 };
 
 }  // namespace gvom::ingest

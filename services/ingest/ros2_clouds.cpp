@@ -43,7 +43,7 @@ bool Ros2Clouds::make(const dds::Message& message, Sweep& out) {
   auto made = ros::read_point_cloud({message.cdr->data(), message.cdr->size()}, cloud_);
   if (made) made = sweeps_.make(cloud_, state_, out);
   if (!made) {
-    refuse(message, made.error());
+    unused_.add(state_, name_, made.error(), message.cdr->size());
     out.clear();
     return false;
   }
@@ -52,15 +52,6 @@ bool Ros2Clouds::make(const dds::Message& message, Sweep& out) {
   out.suspended_ns = ipc::suspended_ns();
   ++state_.counters.sweeps;
   return true;
-}
-
-void Ros2Clouds::refuse(const dds::Message& message, const std::string& why) {
-  SourceCounters& counters = state_.counters;
-  const std::uint64_t size = message.cdr->size();
-  if (++counters.foreign_packets > 1 && counters.foreign_size != size) ++counters.foreign_size_changes;
-  counters.foreign_size = size;
-  if (!std::exchange(told_foreign_, true))
-    state_.warnings.push_back(name_ + ": " + why + ": the cloud is not used, and neither are others like it");
 }
 
 tl::expected<void, std::string> Ros2Clouds::rewind() {

@@ -12,6 +12,7 @@
 #include "services/ingest/cloud_sweep.hpp"
 #include "services/ingest/packet.hpp"
 #include "services/ingest/source.hpp"
+#include "services/ingest/unused_messages.hpp"
 
 namespace gvom::ingest {
 
@@ -34,7 +35,6 @@ class Ros2Clouds final : public Source {
 
  private:
   bool make(const dds::Message& message, Sweep& out);
-  void refuse(const dds::Message& message, const std::string& why);
 
   dds::Reader reader_;
   std::string name_;
@@ -43,7 +43,7 @@ class Ros2Clouds final : public Source {
   dds::TopicOwner owner_;
   SourceState state_;
   ros::PointCloud2In cloud_;
-  bool told_foreign_ = false;
+  UnusedMessages unused_;
 };
 
 }  // namespace gvom::ingest

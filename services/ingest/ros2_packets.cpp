@@ -30,11 +30,7 @@ void Ros2Packets::read_message() {
   const auto read = unpack(kind_, {message_->cdr->data(), message_->cdr->size()}, came_ns, scan_, packets_);
   if (read) return set_received();
   ++state_.counters.packets;
-  ++state_.counters.foreign_packets;
-  state_.counters.foreign_size = message_->cdr->size();
-  if (!std::exchange(told_foreign_, true))
-    state_.warnings.push_back(name_ + ": " + read.error() +
-                              ": the message is not used, and neither are others like it");
+  unused_.add(state_, name_, read.error(), message_->cdr->size());
 }
 
 void Ros2Packets::set_received() {

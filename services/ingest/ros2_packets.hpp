@@ -10,6 +10,7 @@
 
 #include "services/common/dds/reader.hpp"
 #include "services/ingest/packet_messages.hpp"
+#include "services/ingest/unused_messages.hpp"
 
 namespace gvom::ingest {
 
@@ -39,7 +40,7 @@ class Ros2Packets final : public PacketSource {
   std::vector<ros::VelodynePacketIn> scan_;
   std::vector<Packet> packets_;
   std::size_t next_ = 0;
-  bool told_foreign_ = false;
+  UnusedMessages unused_;
 };
 
 }  // namespace gvom::ingest
