@@ -32,7 +32,7 @@ struct Ros2Config {
   std::string topics =
       "/gvom/costmap,/gvom/grid_map,/gvom/points,/gvom/voxels,/gvom/plan,/gvom/trajectory,"
       "/diagnostics";       ///< Which are offered, between commas.
-  std::string interface;    ///< A name or an address; empty: what Cyclone DDS finds.
+  std::string interface;    ///< A name or an address; empty: what Cyclone DDS finds beside the loopback.
   std::string peers;        ///< That multicast does not reach, between commas.
   std::string config_file;  ///< More of Cyclone DDS's XML; empty: none.
 };

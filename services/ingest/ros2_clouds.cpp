@@ -29,6 +29,8 @@ tl::expected<SourceEvent, std::string> Ros2Clouds::next(Sweep& out, std::chrono:
   const auto message = reader_.take(timeout);
   const dds::ReaderCounters reader = reader_.counters();
   state_.counters.kernel_drops = reader.lost + reader.replaced;
+  if (const std::string loss = message ? "" : reader_.network_loss(); !loss.empty())
+    return tl::unexpected(name_ + ": " + loss);
   if (!message) return SourceEvent::kIdle;
   ++state_.counters.packets;
   if (!owner_.is_owner(message->publisher, message->arrived_ns)) {

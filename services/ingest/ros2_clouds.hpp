@@ -24,7 +24,8 @@ class Ros2Clouds final : public Source {
 
   /// Clouds that can't be sweeps (no times, no x, y, z, steps that don't fit) are counted as
   /// `foreign_packets`, those of a second publisher as `second_sensor_packets`; the first of the former is
-  /// told. Clouds that were lost on the way or not taken in time count as `kernel_drops`.
+  /// told. Clouds that were lost on the way or not taken in time count as `kernel_drops`. An error when the
+  /// network that was joined is gone.
   tl::expected<SourceEvent, std::string> next(Sweep& out, std::chrono::milliseconds timeout) override;
   tl::expected<void, std::string> rewind() override;
   [[nodiscard]] bool is_live() const override { return true; }

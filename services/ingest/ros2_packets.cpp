@@ -17,6 +17,8 @@ tl::expected<PacketEvent, std::string> Ros2Packets::next(Packet& out, std::chron
     const dds::ReaderCounters reader = reader_.counters();
     state_.counters.kernel_drops = reader.lost + reader.replaced;
     if (message_) read_message();
+    if (const std::string loss = message_ ? "" : reader_.network_loss(); !loss.empty())
+      return tl::unexpected(name_ + ": " + loss);
   }
   if (next_ == packets_.size()) return PacketEvent::idle;
   out = packets_[next_++];

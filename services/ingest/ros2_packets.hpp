@@ -23,7 +23,8 @@ class Ros2Packets final : public PacketSource {
   Ros2Packets(dds::Reader reader, PacketMessages kind, std::string name, SourceState& state);
 
   /// Messages that are not what their type says are counted as `foreign_packets` and passed over; the first
-  /// is told. Messages that were lost on the way or not taken in time count as `kernel_drops`.
+  /// is told. Messages that were lost on the way or not taken in time count as `kernel_drops`. An error when
+  /// the network that was joined is gone.
   tl::expected<PacketEvent, std::string> next(Packet& out, std::chrono::milliseconds timeout) override;
   tl::expected<void, std::string> rewind() override;
   [[nodiscard]] bool is_live() const override { return true; }

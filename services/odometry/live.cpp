@@ -91,6 +91,10 @@ class Live {
     lost_ = counters.lost + counters.replaced;
     if (message)
       if (const auto sent = use(*message); !sent) return sent;
+    if (const std::string loss = reader_.network_loss(); !loss.empty()) {
+      spdlog::error("{}: {}", topic_, loss);
+      return tl::unexpected(ExitCode::unavailable);
+    }
     const std::int64_t now_ns = ipc::monotonic_ns();
     judge(now_ns);
     if (!health_.due(now_ns)) return {};

@@ -93,6 +93,14 @@ TEST_CASE("a network that is not there is told, and looked for until it is") {
   CHECK_FALSE(sink->wants(topic(TopicId::costmap)));
 }
 
+TEST_CASE("the loopback is no network unless it is named: Cyclone would stay there when another comes") {
+  services::VehicleConfig config = config_of(35);
+  config.bridge.ros2.interface = "";
+  const auto sink = open(config);
+  REQUIRE(eventually([&] { return !sink->problem().empty(); }));
+  CHECK_THAT(sink->problem(), Contains("no network but the loopback; for this machine alone: interface lo"));
+}
+
 TEST_CASE("keys that cannot be are told by name") {
   const auto error = [](auto change) {
     services::VehicleConfig config = config_of(34);

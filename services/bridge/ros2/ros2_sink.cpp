@@ -3,6 +3,8 @@
 #include <chrono>
 #include <utility>
 
+#include <spdlog/spdlog.h>
+
 #include "services/common/ros/schemas.hpp"
 
 namespace gvom::bridge {
@@ -65,7 +67,7 @@ void Ros2Sink::set_problem(const std::string& why) {
 void Ros2Sink::run() {
   bool joined = false;
   for (;;) {
-    if (!joined) joined = join();
+    if (!joined || is_cut_off()) joined = join();
     if (joined) count_listeners();
     std::unique_lock lock(mutex_);
     changed_.wait_for(lock, joined ? kLook : kRetry, [&] { return stop_ || (joined && waiting_); });
@@ -77,21 +79,36 @@ void Ros2Sink::run() {
 }
 
 bool Ros2Sink::join() {
+  leave();
   const auto opened = open_writers();
-  if (!opened)
-    for (Slot& slot : slots_) slot.writer.reset();  // and with them the participant
-  set_problem(opened ? "" : opened.error());
+  if (!opened) leave();
+  set_problem(opened ? "" : opened.error() + " (tried again every 2 s)");
   return opened.has_value();
 }
 
+bool Ros2Sink::is_cut_off() {
+  const std::string why = participant_->network_loss();
+  if (!why.empty()) spdlog::warn("ROS 2: {}", why);
+  return !why.empty();
+}
+
+void Ros2Sink::leave() {
+  for (Slot& slot : slots_) {
+    slot.listeners.store(0, std::memory_order_relaxed);
+    slot.writer.reset();
+  }
+  participant_.reset();
+}
+
 tl::expected<void, std::string> Ros2Sink::open_writers() {
-  const auto participant = dds::Participant::open(settings_.participant);
+  auto participant = dds::Participant::open(settings_.participant);
   if (!participant) return tl::unexpected(participant.error());
+  participant_ = std::move(*participant);
   for (const TopicId id : settings_.topics) {
     const Topic& one = topic(id);
     const dds::Topic named{topic_of_node(one.name, settings_.participant.node), one.type,
                            ros::type_hash_of(one.type).value_or("")};
-    auto writer = dds::Writer::open(*participant, named, qos_of(one));
+    auto writer = dds::Writer::open(participant_, named, qos_of(one));
     if (!writer) return tl::unexpected("ROS 2: " + writer.error());
     slot_of(id).writer.emplace(std::move(*writer));
   }

@@ -45,6 +45,8 @@ class Ros2Sink final : public Sink {
   Slot& slot_of(TopicId id) { return slots_[static_cast<std::size_t>(id)]; }
   void run();
   bool join();
+  bool is_cut_off();
+  void leave();
   tl::expected<void, std::string> open_writers();
   void send_waiting();
   void send(Slot& slot, const ros::Blob& message);
@@ -53,6 +55,7 @@ class Ros2Sink final : public Sink {
   [[nodiscard]] std::optional<ros::Blob> next(Slot& slot);
 
   const Ros2Settings settings_;
+  std::shared_ptr<dds::Participant> participant_;  // the thread's
   std::array<Slot, kTopics.size()> slots_;
   mutable std::mutex mutex_;  // of what follows, and of what waits
   std::condition_variable changed_;

@@ -76,10 +76,15 @@ tl::expected<std::string, std::string> read_user_file(const std::string& path) {
 const std::string kNoSharedMemory =
     "<CycloneDDS><Domain><SharedMemory><Enable>false</Enable></SharedMemory></Domain></CycloneDDS>";
 
+/// With several threads that receive, Cyclone ends each by a packet to itself, and hangs where the network is
+/// gone.
 std::string own_xml(const DomainOptions& options) {
   return "<CycloneDDS><Domain Id=\"any\"><General>" + interface_xml(options.interface) +
          "<MaxMessageSize>65500B</MaxMessageSize><FragmentSize>63000B</FragmentSize></General>" +
-         peers_xml(options.peers) + "<Internal><SocketReceiveBufferSize max=\"16MB\"/><MaxSampleSize>" +
+         peers_xml(options.peers) +
+         "<Internal><MultipleReceiveThreads>false</MultipleReceiveThreads><SocketReceiveBufferSize "
+         "max=\"16MB\"/>"
+         "<MaxSampleSize>" +
          std::to_string(kLargestMessage) +
          "B</MaxSampleSize></Internal><SharedMemory><Enable>false</Enable></SharedMemory></Domain></"
          "CycloneDDS>";

@@ -37,6 +37,11 @@ constexpr const char* kGraphTypeHash =
     "RIHS01_91a0593bacdcc50ea9bdcf849a938b128412cc1ea821245c663bcd26f83c295e";
 constexpr std::string_view kEnclave = "enclave=/;";
 
+/// Cyclone would take the loopback where there is nothing else yet, and stay there when the network comes.
+bool has_no_network(const DomainOptions& domain) {
+  return domain.interface.empty() && domain.config_file.empty() && usable(interface_addresses(), "").empty();
+}
+
 void erase(std::vector<Guid>& guids, const Guid& guid) {
   guids.erase(std::remove(guids.begin(), guids.end(), guid), guids.end());
 }
@@ -79,7 +84,7 @@ tl::expected<std::shared_ptr<Participant>, std::string> Participant::open(const 
     return tl::unexpected("ROS 2: domain " + std::to_string(options.domain.id) +
                           ": this process is in it already, with other options");
   }
-  std::unique_ptr<Participant> participant(new Participant(options.distro));
+  std::unique_ptr<Participant> participant(new Participant(options));
   participant->xml_ = *xml;
   const auto joined = participant->join(options);
   if (!joined) return tl::unexpected("ROS 2: " + joined.error());
@@ -97,6 +102,9 @@ void Participant::leave(Participant* participant) {
 tl::expected<void, std::string> Participant::join(const ParticipantOptions& options) {
   auto node = node_name(options.node);
   if (!node) return tl::unexpected(node.error());
+  if (has_no_network(options.domain))
+    return tl::unexpected(
+        std::string("there is no network but the loopback; for this machine alone: interface lo"));
   take_cyclone_log();
   const CycloneWords words;
   const auto failed = [&](const char* what, dds_return_t code) {
@@ -121,7 +129,8 @@ tl::expected<void, std::string> Participant::join(const ParticipantOptions& opti
   return {};
 }
 
-Participant::Participant(Distro distro) : distro_(distro) {}
+Participant::Participant(const ParticipantOptions& options)
+    : distro_(options.distro), network_(options.domain.interface) {}
 
 Participant::~Participant() {
   graph_.reset();

@@ -11,6 +11,7 @@
 #include "services/common/dds/domain.hpp"
 #include "services/common/dds/graph.hpp"
 #include "services/common/dds/names.hpp"
+#include "services/common/dds/network_watch.hpp"
 
 namespace gvom::dds {
 
@@ -27,7 +28,8 @@ class GraphWriter;
 class Participant {
  public:
   /// Joins the network. Errors: what domain_xml refuses, a domain that this process is in already, an
-  /// interface that is not there, a configuration that Cyclone refuses (in its own words).
+  /// interface that is not there, nothing but the loopback where nobody asked for that, a configuration that
+  /// Cyclone refuses (in its own words).
   static tl::expected<std::shared_ptr<Participant>, std::string> open(const ParticipantOptions& options);
 
   /// Leaves it.
@@ -37,6 +39,9 @@ class Participant {
 
   [[nodiscard]] const Guid& guid() const { return entities_.participant; }
   [[nodiscard]] Distro distro() const { return distro_; }
+  /// Why nobody can be reached any more, and this has to be opened anew when all have let it go: its
+  /// interface went down or away, or has another address. Empty if all is well. Cheap.
+  [[nodiscard]] std::string network_loss() { return network_.loss(); }
   [[nodiscard]] std::int32_t handle() const { return participant_; }  ///< Cyclone's.
 
   // Of this node's readers and writers; the graph is told.
@@ -47,12 +52,13 @@ class Participant {
  private:
   struct Domains;
 
-  explicit Participant(Distro distro);
+  explicit Participant(const ParticipantOptions& options);
   static void leave(Participant* participant);
   tl::expected<void, std::string> join(const ParticipantOptions& options);
   void tell_graph();
 
   const Distro distro_;
+  NetworkWatch network_;  // what was there just before it joined
   std::string xml_;
   std::int32_t domain_ = 0;  // handles of Cyclone's
   std::int32_t participant_ = 0;

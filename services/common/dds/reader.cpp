@@ -138,6 +138,10 @@ int Reader::publishers() const {
   return static_cast<int>(status.current_count);
 }
 
+std::string Reader::network_loss() const {
+  return state_->participant->network_loss();
+}
+
 ReaderCounters Reader::counters() const {
   ReaderCounters counters = state_->inbox.counters();
   dds_sample_lost_status_t status{};

@@ -53,6 +53,8 @@ class Reader {
   /// Publishers that are there now and offer what this reader takes.
   [[nodiscard]] int publishers() const;
   [[nodiscard]] ReaderCounters counters() const;
+  /// Participant::network_loss().
+  [[nodiscard]] std::string network_loss() const;
 
  private:
   struct State;
