@@ -3,7 +3,9 @@
 #include <thread>
 
 #include "services/common/dds/reader.hpp"
+#include "tests/common/temporary_file.hpp"
 #include "tests/dds/cdr_bytes.hpp"
+#include "tests/dds/message_file.hpp"
 #include "tests/dds/network.hpp"
 #include "tests/dds/peer_process.hpp"
 
@@ -85,6 +87,33 @@ TEST_CASE("of messages that are not taken the newest five are kept, and the othe
     CHECK(second_of(*message) == number);
   }
   CHECK_FALSE(reader.take(0ms));
+}
+
+TEST_CASE("what gets lost on the way is counted when a later message comes") {
+  const gvom::test::TemporaryFile small_buffer(
+      "<CycloneDDS><Domain><Internal><SocketReceiveBufferSize "
+      "max=\"16kB\"/></Internal></Domain></CycloneDDS>");
+  ParticipantOptions options;
+  options.domain = {14, "lo", {}, small_buffer.path()};
+  Reader reader = open(Participant::open(options).value());
+  const auto cloud = [](std::size_t bytes) {
+    return gvom::test::cloud_message(0, {{}, 32}, gvom::test::Octets(bytes));
+  };
+  constexpr int kSent = 6;
+  MessageFile clouds(kCloud.type);
+  clouds.add(cloud(32));
+  for (int i = 1; i < kSent - 1; ++i) clouds.add(cloud(kCloudBytes));
+  clouds.add(cloud(32));
+  Peer driver(clouds.sender(14, kCloud.name));
+  meet(reader, driver, 1);
+  for (int i = 0; i < kSent; ++i) {
+    driver.go();
+    REQUIRE(driver.line("sent") == "sent");
+  }
+  const auto seen = [&] { return reader.counters().received + reader.counters().lost; };
+  for (int i = 0; i < 400 && seen() < kSent; ++i) std::this_thread::sleep_for(50ms);
+  CHECK(seen() == kSent);
+  CHECK(reader.counters().lost > 0);
 }
 
 TEST_CASE("each publisher of a topic can be told from the others") {

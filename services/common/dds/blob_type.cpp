@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include <dds/ddsi/q_protocol.h>
 #include <dds/ddsi/q_radmin.h>
 #include <dds/ddsrt/heap.h>
 
@@ -27,6 +28,7 @@ struct Message : ddsi_serdata {
     ddsi_serdata_init(this, of, which);
   }
   ros::Blob cdr;
+  std::int64_t sequence = 0;
 };
 
 const Message& of(const ddsi_serdata* message) {
@@ -35,7 +37,7 @@ const Message& of(const ddsi_serdata* message) {
 
 /// Null where there is no memory: to Cyclone that is a message that cannot be read. C calls the functions
 /// below, and knows no exceptions.
-ddsi_serdata* make(const ddsi_sertype* type, ddsi_serdata_kind kind, ros::Blob bytes) noexcept {
+Message* make(const ddsi_sertype* type, ddsi_serdata_kind kind, ros::Blob bytes) noexcept {
   return new (std::nothrow) Message(type, kind, std::move(bytes));
 }
 
@@ -55,6 +57,14 @@ bool gather(const nn_rdata* piece, std::size_t size, Bytes& out) {
   return out.size() == size;
 }
 
+/// Cyclone tells a reader of no gap in what a best-effort writer sent, so this looks into the packet.
+std::int64_t sequence_of(const nn_rdata* piece) {
+  if (NN_RDATA_SUBMSG_OFF(piece) == 0) return 0;
+  Data_DataFrag_common head;
+  std::memcpy(&head, NN_RMSG_PAYLOADOFF(piece->rmsg, NN_RDATA_SUBMSG_OFF(piece)), sizeof head);
+  return std::int64_t{head.writerSN.high} * (std::int64_t{1} << 32) + head.writerSN.low;
+}
+
 ddsi_serdata* from_pieces(const ddsi_sertype* type, ddsi_serdata_kind kind, const nn_rdata* pieces,
                           std::size_t size) noexcept {
   if (kind != SDK_DATA) return make(type, kind, nullptr);
@@ -62,7 +72,9 @@ ddsi_serdata* from_pieces(const ddsi_sertype* type, ddsi_serdata_kind kind, cons
   try {
     const auto bytes = std::make_shared<Bytes>();
     bytes->reserve(size);
-    return gather(pieces, size, *bytes) ? make(type, kind, bytes) : nullptr;
+    Message* const message = gather(pieces, size, *bytes) ? make(type, kind, bytes) : nullptr;
+    if (message != nullptr) message->sequence = sequence_of(pieces);
+    return message;
   } catch (const std::bad_alloc&) {
     return nullptr;
   }
@@ -214,6 +226,10 @@ ddsi_serdata* new_message(const ddsi_sertype* type, ros::Blob cdr) {
 
 ros::Blob blob_of(const ddsi_serdata* message) {
   return of(message).cdr;
+}
+
+std::int64_t sequence_of(const ddsi_serdata* message) {
+  return of(message).sequence;
 }
 
 }  // namespace gvom::dds

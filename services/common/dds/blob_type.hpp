@@ -22,4 +22,7 @@ ddsi_serdata* new_message(const ddsi_sertype* type, ros::Blob cdr);
 /// writer has gone.
 ros::Blob blob_of(const ddsi_serdata* message);
 
+/// The number that its writer gave it, one more for each; 0 if it is not known.
+std::int64_t sequence_of(const ddsi_serdata* message);
+
 }  // namespace gvom::dds

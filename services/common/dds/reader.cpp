@@ -1,9 +1,11 @@
 #include "services/common/dds/reader.hpp"
 
+#include <algorithm>
 #include <array>
 #include <condition_variable>
 #include <ctime>
 #include <deque>
+#include <map>
 #include <mutex>
 #include <new>
 #include <utility>
@@ -27,10 +29,12 @@ class Inbox {
  public:
   explicit Inbox(std::size_t depth) : depth_(depth) {}
 
-  void put(Message message) {
+  /// `sequence`: its publisher's number; 0 if not known.
+  void put(Message message, std::int64_t sequence) {
     {
       const std::lock_guard lock(mutex_);
       ++received_;
+      count_lost(message.publisher, sequence);
       if (waiting_.size() == depth_) {
         waiting_.pop_front();
         ++replaced_;
@@ -48,19 +52,32 @@ class Inbox {
     return message;
   }
 
-  /// `lost` is counted elsewhere.
   [[nodiscard]] ReaderCounters counters() const {
     const std::lock_guard lock(mutex_);
-    return {received_, replaced_, 0};
+    return {received_, replaced_, lost_};
   }
 
  private:
+  /// With mutex_. Numbers are what strangers say.
+  void count_lost(std::uint64_t publisher, std::int64_t sequence) {
+    constexpr std::size_t kMostPublishers = 64;
+    constexpr std::int64_t kMostAtOnce = 1'000'000;
+    if (sequence <= 0) return;
+    if (newest_.size() == kMostPublishers && newest_.count(publisher) == 0) newest_.clear();
+    std::int64_t& newest = newest_.try_emplace(publisher, sequence).first->second;
+    if (sequence > newest + 1)
+      lost_ += static_cast<std::uint64_t>(std::min(sequence - newest - 1, kMostAtOnce));
+    newest = std::max(newest, sequence);
+  }
+
   const std::size_t depth_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<Message> waiting_;
   std::uint64_t received_ = 0;
   std::uint64_t replaced_ = 0;
+  std::uint64_t lost_ = 0;
+  std::map<std::uint64_t, std::int64_t> newest_;  // sequence, of each publisher
 };
 
 void put_all(dds_entity_t reader, Inbox& inbox) {
@@ -72,9 +89,11 @@ void put_all(dds_entity_t reader, Inbox& inbox) {
     const dds_return_t count = dds_takecdr(reader, messages.data(), kAtOnce, infos.data(), DDS_ANY_STATE);
     for (dds_return_t i = 0; i < count; ++i) {
       ros::Blob cdr = infos[i].valid_data ? blob_of(messages[i]) : nullptr;
+      const std::int64_t sequence = sequence_of(messages[i]);
       ddsi_serdata_unref(messages[i]);
       if (cdr)
-        inbox.put({std::move(cdr), infos[i].source_timestamp, arrived_ns, infos[i].publication_handle});
+        inbox.put({std::move(cdr), infos[i].source_timestamp, arrived_ns, infos[i].publication_handle},
+                  sequence);
     }
     if (count < static_cast<dds_return_t>(kAtOnce)) return;
   }
@@ -143,11 +162,7 @@ std::string Reader::network_loss() const {
 }
 
 ReaderCounters Reader::counters() const {
-  ReaderCounters counters = state_->inbox.counters();
-  dds_sample_lost_status_t status{};
-  dds_get_sample_lost_status(state_->entity.get(), &status);
-  counters.lost = status.total_count;
-  return counters;
+  return state_->inbox.counters();
 }
 
 }  // namespace gvom::dds

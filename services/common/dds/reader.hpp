@@ -33,7 +33,7 @@ struct Message {
 struct ReaderCounters {
   std::uint64_t received = 0;  ///< Whole messages that came here.
   std::uint64_t replaced = 0;  ///< ... of these, not taken in time: newer ones came instead.
-  std::uint64_t lost = 0;      ///< Sent, but never here as a whole.
+  std::uint64_t lost = 0;      ///< Sent between others that came, but never here as a whole.
 };
 
 /// `take` is for one thread at a time, the rest for any.
