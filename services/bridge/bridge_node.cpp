@@ -29,11 +29,6 @@ ros::LayersView view_of(const ipc::LayersSample& sample) {
   return view;
 }
 
-/// No more points than a plan has room for, whatever it says.
-ipc::Span<const ipc::Plan::Point> points_of(const ipc::Plan::Point* points, std::uint32_t count) {
-  return {points, std::min<std::size_t>(count, ipc::Plan::kMaxPoints)};
-}
-
 }  // namespace
 
 BridgeNode::BridgeNode(const services::VehicleConfig& config, MessageSettings settings, Bus& bus,
@@ -171,12 +166,8 @@ void BridgeNode::take_plan() {
     ++plans_in_;
     const ipc::Plan& plan = **sample;
     const std::int64_t stamp_ns = plan.header.stamp_ns;
-    if (wanted(TopicId::plan))
-      send(TopicId::plan, stamp_ns,
-           maker_.path(TopicId::plan, stamp_ns, points_of(plan.path, plan.path_count)));
-    if (wanted(TopicId::trajectory))
-      send(TopicId::trajectory, stamp_ns,
-           maker_.path(TopicId::trajectory, stamp_ns, points_of(plan.trajectory, plan.trajectory_count)));
+    for (const TopicId id : {TopicId::plan, TopicId::trajectory})
+      if (wanted(id)) send(id, stamp_ns, maker_.path(id, stamp_ns, plan));
   }
 }
 

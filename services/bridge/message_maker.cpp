@@ -1,5 +1,8 @@
 #include "services/bridge/message_maker.hpp"
 
+#include <algorithm>
+
+#include "ipc/span.hpp"
 #include "services/common/ros/cloud_messages.hpp"
 #include "services/common/ros/diagnostics_message.hpp"
 #include "services/common/ros/grid_messages.hpp"
@@ -28,7 +31,11 @@ ros::Blob MessageMaker::tf(std::int64_t stamp_ns, const PoseRecord& T_odom_base)
   return out;
 }
 
-ros::Blob MessageMaker::path(TopicId id, std::int64_t stamp_ns, ipc::Span<const ipc::Plan::Point> points) {
+ros::Blob MessageMaker::path(TopicId id, std::int64_t stamp_ns, const ipc::Plan& plan) {
+  const bool whole = id == TopicId::plan;
+  const std::size_t count = whole ? plan.path_count : plan.trajectory_count;
+  const ipc::Span<const ipc::Plan::Point> points{whole ? plan.path : plan.trajectory,
+                                                 std::min<std::size_t>(count, ipc::Plan::kMaxPoints)};
   const auto out = buffer(id);
   ros::write_path(stamp_ns, points, settings_.frames, *out);
   return out;

@@ -8,7 +8,6 @@
 
 #include "core/format/brick_map.hpp"
 #include "ipc/messages.hpp"
-#include "ipc/span.hpp"
 #include "services/bridge/settings.hpp"
 #include "services/bridge/topic.hpp"
 #include "services/common/ros/blob_pool.hpp"
@@ -29,8 +28,8 @@ class MessageMaker {
   /// The map's indices are to be right (validate_deep).
   ros::Blob voxels(const BrickMapView& map);
   ros::Blob tf(std::int64_t stamp_ns, const PoseRecord& T_odom_base);
-  /// `id`: plan or trajectory.
-  ros::Blob path(TopicId id, std::int64_t stamp_ns, ipc::Span<const ipc::Plan::Point> points);
+  /// `id`: plan or trajectory. No more points than a plan has room for, whatever it says.
+  ros::Blob path(TopicId id, std::int64_t stamp_ns, const ipc::Plan& plan);
   ros::Blob diagnostics(std::int64_t stamp_ns, const std::vector<ipc::Health>& processes,
                         std::int64_t now_mono_ns);
   /// JSON.

@@ -54,11 +54,9 @@ Result MapFile::put_voxels(const BrickMapView& map, std::int64_t stamp_ns) {
 }
 
 Result MapFile::put_plan(const ipc::Plan& plan, std::int64_t stamp_ns) {
-  const Result written =
-      put(TopicId::plan, stamp_ns, maker_.path(TopicId::plan, stamp_ns, {plan.path, plan.path_count}));
+  const Result written = put(TopicId::plan, stamp_ns, maker_.path(TopicId::plan, stamp_ns, plan));
   if (!written) return written;
-  return put(TopicId::trajectory, stamp_ns,
-             maker_.path(TopicId::trajectory, stamp_ns, {plan.trajectory, plan.trajectory_count}));
+  return put(TopicId::trajectory, stamp_ns, maker_.path(TopicId::trajectory, stamp_ns, plan));
 }
 
 }  // namespace gvom::tools
