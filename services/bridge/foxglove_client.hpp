@@ -30,8 +30,7 @@ using asio::ip::tcp;
 using Fault = beast::error_code;
 using Request = http::request<http::empty_body>;
 
-inline constexpr std::chrono::seconds kPatience{10};  // for a request, a handshake, a closing
-inline constexpr std::chrono::seconds kIdle{60};      // a client is asked after half of it whether it lives
+inline constexpr std::chrono::seconds kIdle{60};  // a client is asked after half of it whether it lives
 
 class Client;
 
@@ -62,7 +61,7 @@ class Client : public std::enable_shared_from_this<Client> {
   Client& operator=(const Client&) = delete;
 
   void start(const Request& request, const std::string& subprotocol) {
-    socket_.set_option(websocket::stream_base::timeout{kPatience, kIdle, true});
+    socket_.set_option(websocket::stream_base::timeout{shared_.options.patience, kIdle, true});
     socket_.set_option(websocket::stream_base::decorator([subprotocol](websocket::response_type& response) {
       response.set(http::field::sec_websocket_protocol, subprotocol);
     }));

@@ -26,6 +26,8 @@ struct FoxgloveOptions {
   std::vector<std::string> origins;       ///< Of pages that may connect, beside our own.
   std::string page;                       ///< Its folder.
   std::chrono::milliseconds retry{1000};  ///< Until a port that was taken is tried again.
+  /// For a request, an answer, a handshake, a closing.
+  std::chrono::milliseconds patience{10'000};
 };
 
 /// All of the network is one thread of its own; whatever clients do, offer() hands over and returns. For each

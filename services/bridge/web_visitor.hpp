@@ -29,10 +29,12 @@ class Visitor : public std::enable_shared_from_this<Visitor> {
 
   void start() {
     parser_.header_limit(kMostHeader_bytes);
-    stream_.expires_after(kPatience);
+    stream_.expires_after(shared_.options.patience);
     http::async_read(stream_, incoming_, parser_, [self = shared_from_this()](Fault fault, std::size_t) {
       if (!fault) return self->answer();
-      if (fault != http::error::end_of_stream && fault != beast::error::timeout) ++self->shared_.refused;
+      // Browsers connect in advance, and may never ask.
+      const bool unused = fault == beast::error::timeout && !self->parser_.got_some();
+      if (fault != http::error::end_of_stream && !unused) ++self->shared_.refused;
     });
   }
 
@@ -56,6 +58,8 @@ class Visitor : public std::enable_shared_from_this<Visitor> {
       return turn_away(http::status::forbidden, "not from this page: see bridge.foxglove.origins\n");
     if (!subprotocol)
       return turn_away(http::status::bad_request, "offer foxglove.websocket.v1 or foxglove.sdk.v1\n");
+    if (incoming_.size() > 0)
+      return turn_away(http::status::bad_request, "something came before the answer to the handshake\n");
     if (shared_.clients >= kMostClients)
       return turn_away(http::status::service_unavailable, "too many clients\n");
     stream_.expires_never();
@@ -82,7 +86,7 @@ class Visitor : public std::enable_shared_from_this<Visitor> {
     response_.body() = std::move(file.text);
     response_.keep_alive(false);
     response_.prepare_payload();
-    stream_.expires_after(kPatience);
+    stream_.expires_after(shared_.options.patience);
     http::async_write(stream_, response_, [self = shared_from_this()](Fault, std::size_t) {
       Fault ignored;
       self->stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);

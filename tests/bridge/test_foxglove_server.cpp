@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "services/bridge/foxglove_server.hpp"
+#include "tests/bridge/stranger.hpp"
 #include "tests/bridge/ws_client.hpp"
 #include "tests/tools/temporary_folder.hpp"
 
@@ -14,6 +15,8 @@ using namespace gvom;
 using bridge::FoxgloveServer;
 using bridge::TopicId;
 using nlohmann::json;
+using test::Stranger;
+using test::upgrade;
 using test::WsClient;
 
 constexpr std::uint32_t kCostmap = 1, kLayers = 3;  // channels
@@ -65,11 +68,6 @@ TEST_CASE("a client is told who we are and what there is, and gets what it subsc
   CHECK(test::eventually([&] { return !server->wants(bridge::topic(TopicId::costmap)); }));
 }
 
-std::string upgrade(const std::string& headers) {
-  return "GET / HTTP/1.1\r\nHost: 127.0.0.1\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n"
-         "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\n" +
-         headers + "\r\n";
-}
 const std::string kSdk = "Sec-WebSocket-Protocol: foxglove.sdk.v1\r\n";
 
 TEST_CASE("both subprotocols are spoken; without one, from a foreign page, or as the 17th, nobody gets in") {
@@ -155,6 +153,29 @@ TEST_CASE("a frame that announces 100 MB is refused before it comes") {
   const std::string answer = test::raw_exchange(server->port(), upgrade(kSdk), head + "and some bytes");
   CHECK_THAT(answer, Catch::StartsWith("HTTP/1.1 101"));
   CHECK(test::eventually([&] { return server->counters().refused == 1; }));
+}
+
+TEST_CASE("who does not ask within the time there is gets closed; counted if it had begun") {
+  bridge::FoxgloveOptions options;
+  options.patience = std::chrono::milliseconds(200);
+  const auto server = started(options);
+  const Stranger silent(server->port()), slow(server->port());
+  REQUIRE(slow.send("GET / HT"));
+  const auto drips_until_closed = [&] {
+    slow.send("T");
+    return slow.is_closed_now();
+  };
+  CHECK(test::eventually(drips_until_closed));  // each byte does not buy it more time
+  CHECK(silent.is_closed());
+  CHECK(test::eventually([&] { return server->counters().refused == 1; }));
+}
+
+TEST_CASE("who speaks before the handshake is answered is told so, not misunderstood") {
+  const auto server = started();
+  const std::string ping("\x89\x80mask", 6);
+  const std::string answer = test::raw_exchange(server->port(), upgrade(kSdk) + ping);
+  CHECK_THAT(answer, Catch::StartsWith("HTTP/1.1 400") && Catch::Contains("before the answer"));
+  CHECK(server->counters().refused == 1);
 }
 
 TEST_CASE("what is no HTTP, or has an endless head, is closed and counted") {

@@ -8,65 +8,19 @@
 #include <set>
 
 #include "services/common/ros/schemas.hpp"
+#include "tests/bridge/bridge_rig.hpp"
 #include "tests/bridge/mcap_file.hpp"
 #include "tests/bridge/schema_reader.hpp"
-#include "tests/bridge/ws_client.hpp"
-#include "tests/processes/recordings.hpp"
-#include "tests/tools/temporary_folder.hpp"
 
 namespace {
 
 using namespace gvom;
 using nlohmann::json;
+using test::Rig;
 using test::WsClient;
 
 // Channels by their place in kTopics.
 constexpr std::uint32_t kCostmap = 1, kVoxels = 5, kTf = 6, kDiagnostics = 9, kStatus = 10;
-
-test::Vehicle with_bridge(test::Vehicle vehicle, std::uint16_t port) {
-  for (const std::string& set : test::small_map()) vehicle.sets.push_back(set);
-  vehicle.sets.push_back("fusion.voxel_rate_hz=10");
-  vehicle.sets.push_back("bridge.foxglove.port=" + std::to_string(port));
-  vehicle.sets.push_back("bridge.mcap.folder=" + vehicle.folder + "/recorded");
-  return vehicle;
-}
-
-/// Fusion, one lidar and the bridge, and a drive that goes round and round.
-struct Rig {
-  test::TemporaryFolder folder;
-  std::uint16_t port = test::free_port();
-  test::Graph graph{with_bridge(front(folder.path()), port)};
-  std::unique_ptr<test::Program> bridge, odometry;
-
-  static test::Vehicle front(const std::string& path) {
-    test::simulated(path, 2.0);
-    return test::front_only(path);
-  }
-
-  void start() {
-    graph.start_readers();
-    bridge = graph.start("gvom-bridge", {});
-    odometry = graph.replay({"--rate", "1", "--loop"});
-  }
-
-  std::unique_ptr<WsClient> client() const {
-    std::unique_ptr<WsClient> connected;
-    test::eventually([&] { return (connected = WsClient::connect(port)) != nullptr; });
-    return connected;
-  }
-
-  void end() {
-    odometry->stop();
-    graph.stop();
-  }
-
-  std::vector<std::string> recorded() const {
-    std::vector<std::string> files;
-    for (const auto& entry : std::filesystem::directory_iterator(folder.path() + "/recorded"))
-      files.push_back(entry.path());
-    return files;
-  }
-};
 
 std::uint32_t subscription_of(const test::WsMessage& message) {
   std::uint32_t id;
