@@ -9,19 +9,25 @@
 namespace gvom::bridge {
 namespace {
 
-std::string stem_in(const std::string& folder) {
+/// Of files that are not there yet: where no clock survives a reboot, the same time comes again.
+std::string new_stem_in(const std::string& folder) {
   const std::time_t now = std::time(nullptr);
   std::tm utc{};
   ::gmtime_r(&now, &utc);
   char date[32];
   std::strftime(date, sizeof date, "%Y%m%d-%H%M%S", &utc);
-  return folder + "/gvom-" + date;
+  const std::string stem = folder + "/gvom-" + date;
+  std::string free = stem;
+  std::error_code ignored;
+  for (int i = 2; std::filesystem::exists(free + "_000.mcap", ignored); ++i)
+    free = stem + "-" + std::to_string(i);
+  return free;
 }
 
 }  // namespace
 
 McapRecorder::McapRecorder(RecorderOptions options)
-    : options_(std::move(options)), writer_(stem_in(options_.folder), options_.split_bytes) {
+    : options_(std::move(options)), writer_(new_stem_in(options_.folder), options_.split_bytes) {
   for (const TopicId id : options_.topics) channels_[id] = writer_.add_channel(mcap_channel(topic(id)));
   std::error_code error;
   std::filesystem::create_directories(options_.folder, error);

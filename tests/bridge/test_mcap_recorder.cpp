@@ -1,5 +1,6 @@
 // The recorder: what it is offered is in its files; a folder that cannot be written is told.
 #include <catch2/catch.hpp>
+#include <set>
 
 #include "services/bridge/mcap_recorder.hpp"
 #include "tests/bridge/mcap_file.hpp"
@@ -51,6 +52,22 @@ TEST_CASE("the topics that are asked for are recorded, with schema and quality o
   CHECK(file.messages[19].type.empty());
   CHECK_THAT(file.schemas.at("nav_msgs/msg/OccupancyGrid"), Catch::Contains("MSG: geometry_msgs/Pose\n"));
   CHECK_THAT(file.metadata.at("/gvom/costmap"), Catch::Contains("durability: 1\n"));
+}
+
+TEST_CASE("a recording of the same second, as after a reboot without a clock, is not written over") {
+  const test::TemporaryFolder folder;
+  bridge::RecorderOptions options;
+  options.folder = folder.path();
+  options.topics = {TopicId::costmap};
+  constexpr std::size_t kRecordings = 10;  // in a few milliseconds
+  for (std::uint8_t i = 1; i <= kRecordings; ++i) {
+    McapRecorder recorder(options);
+    recorder.offer(bridge::topic(TopicId::costmap), i, blob(10, i));
+  }
+  std::set<std::uint8_t> recorded;
+  for (const std::string& file : files_in(options.folder))
+    for (const test::McapMessage& message : test::read_mcap(file).messages) recorded.insert(message.bytes[0]);
+  CHECK(recorded.size() == kRecordings);
 }
 
 TEST_CASE("what a slow disk leaves no room for is dropped and counted") {
