@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
-# The units as systemd reads them: no unknown key, little exposure, what real time needs, the drop-ins of the README.
+# The units as systemd reads them: no unknown key, little exposure, what real time needs, the drop-ins of the README; and the bridge's at work.
 # shellcheck source=common.bash
 source "$(dirname "$0")/common.bash"
+# shellcheck source=bridge.bash
+source "$(dirname "$0")/bridge.bash"
 
 units=(gvom-roudi.service gvom-fusion.service gvom-ingest@front.service gvom-odometry.service gvom-planner.service
   gvom-bridge.service gvom-metrics.service)
@@ -45,8 +47,11 @@ expect gvom-ingest@front.service CPUSchedulingPolicy 1
 expect gvom-fusion.service PrivateDevices no
 exposure=$(systemd-analyze security --offline=true --threshold=30 --no-pager gvom-fusion.service) || fail "fusion with a GPU is too exposed"
 say "fusion with a GPU: $(grep -oE 'exposure level.*: [0-9.]+' <<< "$exposure")"
+rm /etc/systemd/system/gvom-odometry.service.d/once.conf  # the bridge is to have something to send as long as it takes
 use_recording
+use_bridge
 start_all
 must_see_layers "with the README's drop-ins"
 [[ $(chrt --pid "$(pid_of gvom-fusion)") == *SCHED_FIFO*priority:\ 20* ]] || fail "fusion is not scheduled fifo: $(chrt --pid "$(pid_of gvom-fusion)")"
+check_bridge
 say "well"
