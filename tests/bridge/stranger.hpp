@@ -76,9 +76,8 @@ class Stranger {
   /// Reads on until the other side closes; false if it does not within 20 s after its last word.
   [[nodiscard]] bool is_closed() const {
     char part[4096];
-    ssize_t got;
-    while ((got = ::recv(socket_, part, sizeof part, 0)) > 0) {
-    }
+    ssize_t got = 1;
+    while (got > 0) got = ::recv(socket_, part, sizeof part, 0);
     return got == 0 || errno == ECONNRESET;
   }
 

@@ -231,5 +231,6 @@ int main(int argc, char** argv) {
   add_texts(seeds);
   add_messages(seeds);
   add_bags(seeds);
+  add_clients(seeds);
   return 0;
 }

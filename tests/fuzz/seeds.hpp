@@ -36,4 +36,7 @@ void add_messages(Seeds& seeds);
 /// MCAP files and ROS 2 messages.
 void add_bags(Seeds& seeds);
 
+/// What clients of the bridge say.
+void add_clients(Seeds& seeds);
+
 }  // namespace gvom::fuzz
