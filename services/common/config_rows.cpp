@@ -117,7 +117,8 @@ std::vector<VehicleRow> process_rows() {
 
       {{"odometry.source", "", Rule::text, 0, 0, kOptional,
         "tum:FILE, euroc:FILE, kitti:FILE?times=FILE, bag:PATH?topic=TOPIC or bag:PATH?tf=PARENT/CHILD, "
-        "relative to the working directory; ros2:/TOPIC live; empty: by the command line"},
+        "relative to the working directory; ros2:/TOPIC, ros2:/tf?tf=PARENT/CHILD live; empty: by the "
+        "command line"},
        [](V& c) -> Field { return &c.odometry.source; }},
       {{"odometry.timeout_s", "s", Rule::range, 0.01, 60, kOptional,
         "a live sweep waits this long for the odometry that brackets it (R3)"},

@@ -8,6 +8,7 @@
 #include "services/common/odometry_lines.hpp"
 #include "services/common/odometry_tf.hpp"
 #include "services/common/ros/incoming.hpp"
+#include "services/common/source_uri.hpp"
 #include "services/common/stamps.hpp"
 
 namespace gvom::services {
@@ -16,39 +17,28 @@ namespace {
 using Poses = tl::expected<std::vector<StampedPose>, std::string>;
 using Result = tl::expected<void, std::string>;
 
-const std::string kScheme = "bag:";
 const std::string kStaticTopic = "/tf_static";
 
 struct BagSource {
   std::string path;
   std::optional<std::string> topic;
-  std::optional<std::pair<std::string, std::string>> tf;  // parent, child
+  std::optional<Frames> tf;
 };
 
 tl::expected<BagSource, std::string> parse(const std::string& source) {
-  const auto wrong = [&](const std::string& what) {
-    return tl::unexpected("odometry source '" + source + "': " + what);
+  const auto wrong = [](const std::string& why) {
+    return tl::unexpected("odometry " + why + "; expected bag:PATH?topic=TOPIC or bag:PATH?tf=PARENT/CHILD");
   };
-  const std::string usage = "expected bag:PATH?topic=TOPIC or bag:PATH?tf=PARENT/CHILD";
-  const std::size_t question = source.find('?');
-  BagSource out;
-  out.path = source.substr(kScheme.size(), question - kScheme.size());
-  if (out.path.empty()) return wrong("no path in it (gvom-map --bag PATH fills that in)");
-  for (std::size_t at = question; at < source.size();) {
-    const std::size_t end = std::min(source.find('&', at + 1), source.size());
-    const std::string option = source.substr(at + 1, end - at - 1);
-    const std::size_t slash = option.rfind('/');
-    if (option.compare(0, 6, "topic=") == 0 && option.size() > 6 && !out.topic) {
-      out.topic = option.substr(6);
-    } else if (option.compare(0, 3, "tf=") == 0 && slash != std::string::npos && slash > 3 &&
-               slash + 1 < option.size() && !out.tf) {
-      out.tf.emplace(option.substr(3, slash - 3), option.substr(slash + 1));
-    } else {
-      return wrong("'" + option + "': " + usage);
-    }
-    at = end;
+  const auto uri = parse_source_uri(source);
+  if (!uri) return wrong(uri.error());
+  if (const auto checked = check_options(*uri, {"topic", "tf"}); !checked) return wrong(checked.error());
+  BagSource out{uri->path, uri->option("topic"), {}};
+  if (const auto text = uri->option("tf")) {
+    auto frames = parse_frames(*text);
+    if (!frames) return wrong("source '" + source + "': " + frames.error());
+    out.tf = std::move(*frames);
   }
-  if (!out.topic && !out.tf) return wrong(usage);
+  if (!out.topic && !out.tf) return wrong("source '" + source + "': no topic and no tf");
   return out;
 }
 

@@ -31,20 +31,48 @@ PoseResult TfChain::pose_by(const ros::TransformIn& transform) const {
   return pose;
 }
 
+tl::expected<Frames, std::string> parse_frames(const std::string& text) {
+  const std::size_t slash = text.rfind('/');
+  if (slash == std::string::npos || slash == 0 || slash + 1 == text.size())
+    return tl::unexpected("tf='" + text + "': expected PARENT/CHILD");
+  return Frames{text.substr(0, slash), text.substr(slash + 1)};
+}
+
+TfLinks::Seen* TfLinks::seen_of(const ros::TransformIn& transform) {
+  const Frames link{std::string(transform.header.frame_id), std::string(transform.child_frame_id)};
+  if (links_.size() >= kMostLinks && links_.count(link) == 0) return nullptr;
+  return &links_[link];
+}
+
 void TfLinks::see(const ros::TransformIn& transform) {
-  const Link link{std::string(transform.header.frame_id), std::string(transform.child_frame_id)};
-  if (links_.size() >= kMostLinks && links_.count(link) == 0) return;
+  Seen* const seen = seen_of(transform);
   const auto pose = pose_of(transform);
-  Seen& seen = links_[link];
-  if (!pose) return;
-  if (!seen.is_pose) seen.first = pose->T_odom_base;
-  seen.is_pose = true;
-  seen.moves = seen.moves || differs(seen.first, pose->T_odom_base);
+  if (seen == nullptr || !pose) return;
+  if (!seen->is_pose) seen->first = pose->T_odom_base;
+  seen->is_pose = true;
+  seen->moves = seen->moves || differs(seen->first, pose->T_odom_base);
+}
+
+bool TfLinks::see_standing(const ros::TransformIn& transform) {
+  Seen* const seen = seen_of(transform);
+  const auto pose = pose_of(transform);
+  if (seen == nullptr || seen->moves || !pose) return false;
+  const bool is_news = !seen->is_pose || differs(seen->first, pose->T_odom_base);
+  *seen = {pose->T_odom_base, true, false};
+  return is_news;
+}
+
+bool TfLinks::see_moving(const ros::TransformIn& transform) {
+  Seen* const seen = seen_of(transform);
+  if (seen == nullptr) return false;
+  const bool is_news = !seen->moves;
+  seen->is_pose = seen->moves = true;
+  return is_news;
 }
 
 /// Links from `parent` to `child`, by a search from the child upwards; empty if there are none.
-std::vector<TfLinks::Link> TfLinks::way(const std::string& parent, const std::string& child) const {
-  std::map<std::string, Link> link_below;  // of each frame that was reached
+std::vector<Frames> TfLinks::way(const std::string& parent, const std::string& child) const {
+  std::map<std::string, Frames> link_below;  // of each frame that was reached
   std::vector<std::string> reached{child};
   for (std::size_t i = 0; i < reached.size(); ++i) {
     for (const auto& [link, seen] : links_) {
@@ -52,7 +80,7 @@ std::vector<TfLinks::Link> TfLinks::way(const std::string& parent, const std::st
       if (link_below.emplace(link.first, link).second) reached.push_back(link.first);
     }
   }
-  std::vector<Link> out;
+  std::vector<Frames> out;
   for (std::string at = parent; at != child;) {
     const auto below = link_below.find(at);
     if (below == link_below.end()) return {};
@@ -85,14 +113,15 @@ tl::expected<TfChain, std::string> TfLinks::chain(const std::string& parent, con
                             " and " + link->first + "/" + link->second + ": name one of them");
     moving = link;
   }
-  if (moving == links.end()) moving = links.begin();  // it stands all the time
+  const bool moves = moving != links.end();
+  if (!moves) moving = links.begin();
   Pose before;
   Pose behind;
   for (auto link = links.begin(); link != links.end(); ++link) {
     if (link < moving) before = before * links_.at(*link).first;
     if (link > moving) behind = behind * links_.at(*link).first;
   }
-  return TfChain(*moving, before, behind);
+  return TfChain(*moving, moves, before, behind);
 }
 
 }  // namespace gvom::services

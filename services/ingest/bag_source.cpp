@@ -42,7 +42,7 @@ struct OpenTopic {
   Kind kind;
 };
 
-tl::expected<OpenTopic, std::string> open_topic(const SourceUri& uri) {
+tl::expected<OpenTopic, std::string> open_topic(const services::SourceUri& uri) {
   const auto topic = uri.option("topic");
   if (!topic)
     return tl::unexpected("source '" + uri.text + "': needs topic=TOPIC (gvomctl bag " + uri.path +
@@ -70,8 +70,8 @@ std::set<std::string> options_of(Kind kind) {
   return allowed;
 }
 
-SourceResult open_clouds(const SourceUri& uri, const SourceOptions& options, const std::string& name,
-                         bag::BagReader reader) {
+SourceResult open_clouds(const services::SourceUri& uri, const SourceOptions& options,
+                         const std::string& name, bag::BagReader reader) {
   if (options.by_arrival)
     return tl::unexpected("source '" + uri.text +
                           "': clock: arrival needs packets; clouds have no times of arrival");
@@ -80,8 +80,8 @@ SourceResult open_clouds(const SourceUri& uri, const SourceOptions& options, con
   return BagClouds::open(std::move(reader), name, *clouds, options.clock_offset_ns);
 }
 
-SourceResult open_packets(const SourceUri& uri, const SourceOptions& options, const std::string& name,
-                          bag::BagReader reader, Kind kind) {
+SourceResult open_packets(const services::SourceUri& uri, const SourceOptions& options,
+                          const std::string& name, bag::BagReader reader, Kind kind) {
   const bool ouster = kind == Kind::ouster;
   auto state = std::make_unique<SourceState>();
   auto decoder =
@@ -102,10 +102,10 @@ SourceResult open_packets(const SourceUri& uri, const SourceOptions& options, co
 
 }  // namespace
 
-SourceResult open_bag_source(const SourceUri& uri, const SourceOptions& options) {
+SourceResult open_bag_source(const services::SourceUri& uri, const SourceOptions& options) {
   auto topic = open_topic(uri);
   if (!topic) return tl::unexpected(topic.error());
-  if (const auto checked = check_options(uri, options_of(topic->kind)); !checked)
+  if (const auto checked = services::check_options(uri, options_of(topic->kind)); !checked)
     return tl::unexpected(checked.error());
   if (topic->kind == Kind::cloud) return open_clouds(uri, options, topic->name, std::move(topic->reader));
   return open_packets(uri, options, topic->name, std::move(topic->reader), topic->kind);
@@ -113,9 +113,9 @@ SourceResult open_bag_source(const SourceUri& uri, const SourceOptions& options)
 
 tl::expected<std::unique_ptr<PacketSource>, std::string> open_bag_packets(const std::string& uri,
                                                                           SourceState& state) {
-  const auto parsed = parse_source_uri(uri);
+  const auto parsed = services::parse_source_uri(uri);
   if (!parsed) return tl::unexpected(parsed.error());
-  if (const auto checked = check_options(*parsed, {"topic"}); !checked)
+  if (const auto checked = services::check_options(*parsed, {"topic"}); !checked)
     return tl::unexpected(checked.error());
   auto topic = open_topic(*parsed);
   if (!topic) return tl::unexpected(topic.error());

@@ -64,7 +64,8 @@ Result check_size(const ros::PointCloud2In& cloud) {
 
 }  // namespace
 
-tl::expected<CloudOptions, std::string> cloud_options(const SourceUri& uri, std::size_t max_returns) {
+tl::expected<CloudOptions, std::string> cloud_options(const services::SourceUri& uri,
+                                                      std::size_t max_returns) {
   CloudOptions options{max_returns, {}};
   const auto wrong = [&](const std::string& what) {
     return tl::unexpected("source '" + uri.text + "': " + what);

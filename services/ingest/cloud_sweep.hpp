@@ -10,10 +10,10 @@
 
 #include "core/sweep.hpp"
 #include "services/common/ros/incoming.hpp"
+#include "services/common/source_uri.hpp"
 #include "services/ingest/packet.hpp"
 #include "services/ingest/pcd.hpp"
 #include "services/ingest/point_times.hpp"
-#include "services/ingest/uri.hpp"
 
 namespace gvom::ingest {
 
@@ -24,7 +24,8 @@ struct CloudOptions {
 };
 
 /// Reads `time=ns`, `us`, `ms`, `s` or `none`, and `deskew=off`, which says the same as `none`.
-tl::expected<CloudOptions, std::string> cloud_options(const SourceUri& uri, std::size_t max_returns);
+tl::expected<CloudOptions, std::string> cloud_options(const services::SourceUri& uri,
+                                                      std::size_t max_returns);
 
 /// Fields are taken by name, datatype and offset: x, y, z, and the first of t, time, timestamp, time_stamp,
 /// time_offset, offset_time. Times follow PointTimes: from the header's stamp, or a clock's. Of one sensor's

@@ -11,7 +11,7 @@ namespace {
 
 using ModelResult = tl::expected<VelodyneModel, std::string>;
 
-ModelResult velodyne_model(const SourceUri& uri) {
+ModelResult velodyne_model(const services::SourceUri& uri) {
   const auto wrong = [&](const std::string& what) {
     return tl::unexpected("source '" + uri.text + "': " + what);
   };
@@ -28,22 +28,24 @@ ModelResult velodyne_model(const SourceUri& uri) {
 
 }  // namespace
 
-DecoderResult make_ouster_decoder(const SourceUri& uri, const SourceOptions& options, SourceState& state) {
+DecoderResult make_ouster_decoder(const services::SourceUri& uri, const SourceOptions& options,
+                                  SourceState& state) {
   const auto path = uri.option("meta");
   if (!path) return tl::unexpected("source '" + uri.text + "': needs meta=FILE.json");
   auto metadata = read_ouster_metadata(*path, state.warnings);
   if (!metadata) return tl::unexpected(metadata.error());
-  const auto serial = number_option(uri, "serial", 0xFF'FFFF'FFFF);
+  const auto serial = services::number_option(uri, "serial", 0xFF'FFFF'FFFF);
   if (!serial) return tl::unexpected(serial.error());
   if (*serial) metadata->serial = **serial;
   return std::make_unique<OusterDecoder>(std::move(*metadata), options, state);
 }
 
-DecoderResult make_velodyne_decoder(const SourceUri& uri, const SourceOptions& options, SourceState& state) {
+DecoderResult make_velodyne_decoder(const services::SourceUri& uri, const SourceOptions& options,
+                                    SourceState& state) {
   auto model = velodyne_model(uri);
   if (!model) return tl::unexpected(model.error());
   VelodyneMarks marks{model->model_byte, model->banks, std::nullopt};
-  const auto byte = number_option(uri, "model_byte", 0xFF);
+  const auto byte = services::number_option(uri, "model_byte", 0xFF);
   if (!byte) return tl::unexpected(byte.error());
   if (*byte && marks.model_byte) marks.model_byte = static_cast<std::uint8_t>(**byte);
   if (*byte && !marks.model_byte)

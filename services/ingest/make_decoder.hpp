@@ -7,9 +7,9 @@
 
 #include <tl/expected.hpp>
 
+#include "services/common/source_uri.hpp"
 #include "services/ingest/decoder.hpp"
 #include "services/ingest/source.hpp"
-#include "services/ingest/uri.hpp"
 
 namespace gvom::ingest {
 
@@ -21,9 +21,11 @@ inline const std::set<std::string> kVelodyneOptions = {"calibration", "model", "
 
 /// By the options `meta` (a metadata file) and `serial`. The decoder reports to `state`, which outlives it.
 /// Errors name the source and the option, or the file.
-DecoderResult make_ouster_decoder(const SourceUri& uri, const SourceOptions& options, SourceState& state);
+DecoderResult make_ouster_decoder(const services::SourceUri& uri, const SourceOptions& options,
+                                  SourceState& state);
 
 /// By `model`, `calibration`, `model_byte`, `returns`; else as above.
-DecoderResult make_velodyne_decoder(const SourceUri& uri, const SourceOptions& options, SourceState& state);
+DecoderResult make_velodyne_decoder(const services::SourceUri& uri, const SourceOptions& options,
+                                    SourceState& state);
 
 }  // namespace gvom::ingest

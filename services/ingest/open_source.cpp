@@ -1,6 +1,7 @@
 #include <map>
 #include <utility>
 
+#include "services/common/source_uri.hpp"
 #include "services/ingest/bag_source.hpp"
 #include "services/ingest/make_decoder.hpp"
 #include "services/ingest/packet_sweep_source.hpp"
@@ -9,7 +10,6 @@
 #include "services/ingest/ros2_source.hpp"
 #include "services/ingest/scan_source.hpp"
 #include "services/ingest/udp_receiver.hpp"
-#include "services/ingest/uri.hpp"
 
 namespace gvom::ingest {
 namespace {
@@ -17,7 +17,7 @@ namespace {
 using SourceResult = tl::expected<std::unique_ptr<Source>, SourceError>;
 using PacketsResult = tl::expected<std::unique_ptr<PacketSource>, SourceError>;
 
-DecoderResult make_decoder(const SourceUri& uri, const SourceOptions& options, SourceState& state) {
+DecoderResult make_decoder(const services::SourceUri& uri, const SourceOptions& options, SourceState& state) {
   const bool ouster = uri.scheme.compare(0, 6, "ouster") == 0;
   return ouster ? make_ouster_decoder(uri, options, state) : make_velodyne_decoder(uri, options, state);
 }
@@ -39,21 +39,21 @@ tl::expected<void, std::string> probe_recording(const std::string& path, std::op
                       "UDP packets in the recording" + (port ? " to port " + std::to_string(*port) : "")));
 }
 
-PacketsResult open_recording(const SourceUri& uri, Decoder& decoder, SourceState& state) {
-  const auto port = port_option(uri);
+PacketsResult open_recording(const services::SourceUri& uri, Decoder& decoder, SourceState& state) {
+  const auto port = services::port_option(uri);
   if (!port) return tl::unexpected(port.error());
   const auto probed = probe_recording(uri.path, *port, decoder);
   if (!probed) return tl::unexpected(probed.error());
   return PcapReader::open(uri.path, *port, state);
 }
 
-PacketsResult open_live(const SourceUri& uri, SourceState& state) {
+PacketsResult open_live(const services::SourceUri& uri, SourceState& state) {
   const auto options = udp_options(uri);
   if (!options) return tl::unexpected(options.error());
   return UdpReceiver::open(*options, state);
 }
 
-SourceResult open_packets(const SourceUri& uri, const SourceOptions& options, bool live) {
+SourceResult open_packets(const services::SourceUri& uri, const SourceOptions& options, bool live) {
   auto state = std::make_unique<SourceState>();
   auto decoder = make_decoder(uri, options, *state);
   if (!decoder) return tl::unexpected(decoder.error());
@@ -65,7 +65,7 @@ SourceResult open_packets(const SourceUri& uri, const SourceOptions& options, bo
                                              options, *from);
 }
 
-SourceResult open_scans(const SourceUri& uri, const SourceOptions& options) {
+SourceResult open_scans(const services::SourceUri& uri, const SourceOptions& options) {
   ScanSource::Format format;
   if (const auto text = uri.option("floats")) {
     if (*text != "4" && *text != "5" && *text != "6")
@@ -91,7 +91,7 @@ std::string lack_of_room(const std::string& lidar, std::size_t max_returns, cons
 
 tl::expected<std::unique_ptr<Source>, SourceError> open_source(const std::string& text,
                                                                const SourceOptions& options) {
-  const auto uri = parse_source_uri(text);
+  const auto uri = services::parse_source_uri(text);
   if (!uri) return tl::unexpected(uri.error());
   const std::map<std::string, std::set<std::string>> schemes = {
       {"bag", {"calibration", "deskew", "meta", "model", "model_byte", "returns", "serial", "time", "topic"}},
@@ -108,7 +108,7 @@ tl::expected<std::unique_ptr<Source>, SourceError> open_source(const std::string
     return tl::unexpected("source '" + text + "': unknown scheme '" + uri->scheme +
                           "' (bag, ouster, ouster-udp, ros2, velodyne, velodyne-udp, scans)");
   }
-  const auto checked = check_options(*uri, scheme->second);
+  const auto checked = services::check_options(*uri, scheme->second);
   if (!checked) return tl::unexpected(checked.error());
   if (uri->scheme == "scans" && options.by_arrival)
     return tl::unexpected("source '" + text +

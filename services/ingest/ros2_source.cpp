@@ -18,12 +18,12 @@ namespace {
 using SourceResult = tl::expected<std::unique_ptr<Source>, SourceError>;
 using ReaderResult = tl::expected<dds::Reader, SourceError>;
 
-SourceError wrong(const SourceUri& uri, const std::string& why) {
+SourceError wrong(const services::SourceUri& uri, const std::string& why) {
   return "source '" + uri.text + "': " + why;
 }
 
 /// `depth`: messages that wait while the sweep before is mapped.
-ReaderResult open_reader(const SourceUri& uri, const std::string& type, int depth) {
+ReaderResult open_reader(const services::SourceUri& uri, const std::string& type, int depth) {
   const auto options = dds::network_options(uri.options, "/gvom_ingest", uri.path);
   if (!options) return tl::unexpected(wrong(uri, options.error()));
   const dds::Topic topic{uri.path, type, ros::type_hash_of(type).value_or("")};
@@ -38,14 +38,15 @@ ReaderResult open_reader(const SourceUri& uri, const std::string& type, int dept
   return std::move(*reader);
 }
 
-tl::expected<void, SourceError> check(const SourceUri& uri, const std::set<std::string>& own) {
+tl::expected<void, SourceError> check(const services::SourceUri& uri, const std::set<std::string>& own) {
   std::set<std::string> allowed = dds::kNetworkOptions;
   allowed.insert(own.begin(), own.end());
-  if (const auto checked = check_options(uri, allowed); !checked) return tl::unexpected(checked.error());
+  if (const auto checked = services::check_options(uri, allowed); !checked)
+    return tl::unexpected(checked.error());
   return {};
 }
 
-SourceResult open_clouds(const SourceUri& uri, const SourceOptions& options) {
+SourceResult open_clouds(const services::SourceUri& uri, const SourceOptions& options) {
   if (const auto checked = check(uri, {"deskew", "time"}); !checked) return tl::unexpected(checked.error());
   if (options.by_arrival)
     return tl::unexpected(wrong(uri, "clock: arrival needs packets; clouds have no times of arrival"));
@@ -58,7 +59,7 @@ SourceResult open_clouds(const SourceUri& uri, const SourceOptions& options) {
                                       options.clock_offset_ns);
 }
 
-SourceResult open_packets(const SourceUri& uri, const SourceOptions& options, PacketMessages kind) {
+SourceResult open_packets(const services::SourceUri& uri, const SourceOptions& options, PacketMessages kind) {
   const bool ouster = kind == PacketMessages::ouster;
   std::set<std::string> own(ouster ? kOusterOptions : kVelodyneOptions);
   if (ouster) own.insert("type");
@@ -79,7 +80,7 @@ SourceResult open_packets(const SourceUri& uri, const SourceOptions& options, Pa
 
 }  // namespace
 
-SourceResult open_ros2_source(const SourceUri& uri, const SourceOptions& options) {
+SourceResult open_ros2_source(const services::SourceUri& uri, const SourceOptions& options) {
   if (uri.option("meta") && uri.option("model"))
     return tl::unexpected(wrong(uri, "meta is an Ouster's, model a Velodyne's: which is it?"));
   if (uri.option("meta")) return open_packets(uri, options, PacketMessages::ouster);

@@ -5,8 +5,8 @@
 
 #include <tl/expected.hpp>
 
+#include "services/common/source_uri.hpp"
 #include "services/ingest/source.hpp"
-#include "services/ingest/uri.hpp"
 
 namespace gvom::ingest {
 
@@ -14,7 +14,7 @@ namespace gvom::ingest {
 /// dds::kNetworkOptions say on which network. Errors: options, names; a network that is not there
 /// (unavailable); a gvom that was built without Cyclone DDS. A topic that nobody publishes is none: its
 /// source is silent.
-tl::expected<std::unique_ptr<Source>, SourceError> open_ros2_source(const SourceUri& uri,
+tl::expected<std::unique_ptr<Source>, SourceError> open_ros2_source(const services::SourceUri& uri,
                                                                     const SourceOptions& options);
 
 }  // namespace gvom::ingest

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <sstream>
 
-#include "services/ingest/uri.hpp"
+#include "services/common/source_uri.hpp"
 
 namespace gvom::ingest {
 
@@ -76,9 +76,9 @@ bool is_ingest_of(const PortHolder& owner, const std::string& lidar) {
 }
 
 std::optional<std::uint16_t> live_port(const std::string& source) {
-  const auto uri = parse_source_uri(source);
+  const auto uri = services::parse_source_uri(source);
   if (!uri || (uri->scheme != "ouster-udp" && uri->scheme != "velodyne-udp")) return std::nullopt;
-  const auto port = parse_port(uri->path);
+  const auto port = services::parse_port(uri->path);
   return port ? std::optional<std::uint16_t>(*port) : std::nullopt;
 }
 

@@ -14,7 +14,8 @@ using Kind = SourceError::Kind;
 using Done = tl::expected<void, SourceError>;
 
 /// The address of one option; an interface behind '%' becomes that of the options.
-Done read_address(const SourceUri& uri, const char* key, std::optional<Address>& out, UdpOptions& options) {
+Done read_address(const services::SourceUri& uri, const char* key, std::optional<Address>& out,
+                  UdpOptions& options) {
   const auto text = uri.option(key);
   if (!text) return {};
   const auto percent = text->find('%');
@@ -29,7 +30,7 @@ Done read_address(const SourceUri& uri, const char* key, std::optional<Address>&
   return {};
 }
 
-Done check(const SourceUri& uri, const UdpOptions& options) {
+Done check(const services::SourceUri& uri, const UdpOptions& options) {
   const auto wrong = [&](const char* key, const Address& address, const std::string& why) {
     return tl::unexpected<SourceError>("source '" + uri.text + "': " + key + ": '" + to_text(address).data() +
                                        "' " + why);
@@ -124,9 +125,9 @@ Done bind(const Socket& socket, const UdpOptions& options, unsigned interface) {
 
 }  // namespace
 
-tl::expected<UdpOptions, SourceError> udp_options(const SourceUri& uri) {
+tl::expected<UdpOptions, SourceError> udp_options(const services::SourceUri& uri) {
   UdpOptions options;
-  const auto port = parse_port(uri.path);
+  const auto port = services::parse_port(uri.path);
   if (!port) return tl::unexpected<SourceError>("source '" + uri.text + "': " + port.error());
   options.port = *port;
   options.interface = uri.option("interface").value_or("");
@@ -137,7 +138,7 @@ tl::expected<UdpOptions, SourceError> udp_options(const SourceUri& uri) {
   return options;
 }
 
-tl::expected<std::optional<Address>, SourceError> from_option(const SourceUri& uri) {
+tl::expected<std::optional<Address>, SourceError> from_option(const services::SourceUri& uri) {
   std::optional<Address> from;
   UdpOptions unused;
   const Done read = read_address(uri, "from", from, unused);

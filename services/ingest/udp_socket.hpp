@@ -8,9 +8,9 @@
 
 #include <tl/expected.hpp>
 
+#include "services/common/source_uri.hpp"
 #include "services/ingest/address.hpp"
 #include "services/ingest/source.hpp"
-#include "services/ingest/uri.hpp"
 
 namespace gvom::ingest {
 
@@ -27,10 +27,10 @@ struct UdpOptions {
 
 /// The options of `ouster-udp:PORT?...` and `velodyne-udp:PORT?...`: bind, group, interface, from. Errors
 /// name the option. A link-local IPv6 address may name its interface: `bind=fe80::1%eth1`.
-tl::expected<UdpOptions, SourceError> udp_options(const SourceUri& uri);
+tl::expected<UdpOptions, SourceError> udp_options(const services::SourceUri& uri);
 
 /// The option `from`: the sensor's address.
-tl::expected<std::optional<Address>, SourceError> from_option(const SourceUri& uri);
+tl::expected<std::optional<Address>, SourceError> from_option(const services::SourceUri& uri);
 
 /// A bound socket, which the caller closes. Warns if the kernel grants a receive buffer too small for a
 /// burst. Errors: no such interface, an address that is not up, a port that is taken, a group that is not

@@ -1,8 +1,8 @@
 #include "services/odometry/live.hpp"
 
-#include <algorithm>
-#include <map>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include <spdlog/spdlog.h>
 
@@ -10,12 +10,14 @@
 #include "ipc/fixed.hpp"
 #include "ipc/messages.hpp"
 #include "services/common/bus/join.hpp"
-#include "services/common/dds/network_options.hpp"
 #include "services/common/dds/reader.hpp"
 #include "services/common/dds/topic_owner.hpp"
 #include "services/common/health.hpp"
 #include "services/common/log.hpp"
+#include "services/common/ros/schemas.hpp"
 #include "services/common/words.hpp"
+#include "services/odometry/live_source.hpp"
+#include "services/odometry/tf_messages.hpp"
 
 namespace gvom::odometry {
 namespace {
@@ -23,40 +25,13 @@ namespace {
 using namespace std::chrono_literals;
 using services::ExitCode;
 
-constexpr const char* kTypeHash = "RIHS01_3cc97dc7fb7502f8714462c526d369e35b603cfc34d946e3f2eda2766dfec6e0";
-constexpr dds::Qos kQos{false, false, 32};  // a tenth of a second at 200 Hz, and more
+constexpr const char* kOdometryType = "nav_msgs/msg/Odometry";
+constexpr const char* kTfType = "tf2_msgs/msg/TFMessage";
+constexpr dds::Qos kStanding{true, true, 256};  // of many nodes, each its newest
+constexpr dds::Qos kTfQos{false, false, 256};   // many publish it
+constexpr dds::Qos kQos{false, false, 32};      // a tenth of a second at 200 Hz, and more
 constexpr std::int64_t kSilent_ns = 500'000'000;
 constexpr std::int64_t kTold_ns = 1'000'000'000;  // how long Health tells of what was refused
-
-struct LiveSource {
-  std::string topic;
-  dds::ParticipantOptions network;
-};
-
-tl::expected<LiveSource, std::string> parse(const std::string& source) {
-  const auto wrong = [&](const std::string& why) {
-    return tl::unexpected("odometry source '" + source + "': " + why);
-  };
-  const std::size_t question = std::min(source.find('?'), source.size());
-  LiveSource out;
-  out.topic = source.substr(5, question - 5);
-  std::map<std::string, std::string> options;
-  for (std::size_t at = question; at < source.size();) {
-    const std::size_t end = std::min(source.find('&', at + 1), source.size());
-    const std::string option = source.substr(at + 1, end - at - 1);
-    const std::size_t equals = std::min(option.find('='), option.size());
-    const std::string key = option.substr(0, equals);
-    const bool known = dds::kNetworkOptions.count(key) != 0 && equals + 1 < option.size();
-    if (!known || !options.emplace(key, option.substr(equals + 1)).second)
-      return wrong("'" + option + "': expected each once of config=, distro=, domain=, interface=, peers=");
-    at = end;
-  }
-  if (const auto name = dds::topic_on_wire(out.topic); !name) return wrong(name.error());
-  auto network = dds::network_options(options, "/gvom_odometry", out.topic);
-  if (!network) return wrong(network.error());
-  out.network = std::move(*network);
-  return out;
-}
 
 /// Of this process.
 struct LiveBus {
@@ -72,26 +47,36 @@ struct LiveBus {
   }
 };
 
+/// Of the topic; of tf also of the links that stand.
+struct Readers {
+  dds::Reader poses;
+  std::optional<dds::Reader> standing;
+};
+
 class Live {
  public:
-  Live(dds::Reader reader, const std::string& topic, std::uint64_t config_hash, ipc::Runtime& runtime,
+  Live(Readers readers, const LiveSource& source, std::uint64_t config_hash, ipc::Runtime& runtime,
        LiveBus& bus)
-      : reader_(std::move(reader)),
-        topic_(topic),
+      : readers_(std::move(readers)),
+        topic_(source.topic),
         bus_(bus),
         health_(runtime.name(), config_hash),
         published_(health_.counter("published")),
         refused_(health_.counter("refused_messages")),
         foreign_(health_.counter("other_publisher")),
-        lost_(health_.counter("lost_messages")) {}
+        lost_(health_.counter("lost_messages")) {
+    if (source.tf) tf_.emplace(*source.tf);
+  }
 
   tl::expected<void, ExitCode> step() {
-    const auto message = reader_.take(100ms);
-    const dds::ReaderCounters counters = reader_.counters();
+    while (const auto message = readers_.standing ? readers_.standing->take(0ms) : std::nullopt)
+      if (const auto read = tf_->stand(bytes_of(*message)); !read) refuse(*message, read.error());
+    const auto message = readers_.poses.take(100ms);
+    const dds::ReaderCounters counters = readers_.poses.counters();
     lost_ = counters.lost + counters.replaced;
     if (message)
       if (const auto sent = use(*message); !sent) return sent;
-    if (const std::string loss = reader_.network_loss(); !loss.empty()) {
+    if (const std::string loss = readers_.poses.network_loss(); !loss.empty()) {
       spdlog::error("{}: {}", topic_, loss);
       return tl::unexpected(ExitCode::unavailable);
     }
@@ -104,23 +89,44 @@ class Live {
   }
 
  private:
+  static ros::Bytes bytes_of(const dds::Message& message) {
+    return {message.cdr->data(), message.cdr->size()};
+  }
+
+  /// Of tf many publish, and only those of the link that moves count.
   tl::expected<void, ExitCode> use(const dds::Message& message) {
-    if (!owner_.is_owner(message.publisher, message.arrived_ns)) {
-      ++foreign_;
-      foreign_ns_ = message.arrived_ns;
+    if (!tf_ && !is_of_owner(message)) return {};
+    const auto poses = read(bytes_of(message));
+    if (!poses) {
+      refuse(message, poses.error());
       return {};
     }
-    const bool first = messages_.frames().empty();
-    const auto pose = messages_.read({message.cdr->data(), message.cdr->size()});
-    if (!pose) {
-      ++refused_;
-      refused_ns_ = message.arrived_ns;
-      log_(spdlog::level::warn, "{}: a message is not used: {}", topic_, pose.error());
-      return {};
-    }
-    if (first) spdlog::info("{}: the pose of {}", topic_, messages_.frames());
+    if (poses->empty() || (tf_ && !is_of_owner(message))) return {};
+    const std::string frames = tf_ ? tf_->frames() : messages_.frames();
+    if (frames != frames_) spdlog::info("{}: the pose of {}", topic_, frames);
+    frames_ = frames;
     heard_ns_ = message.arrived_ns;
-    return publish(*pose);
+    for (const StampedPose& pose : *poses)
+      if (const auto sent = publish(pose); !sent) return sent;
+    return {};
+  }
+
+  tl::expected<std::vector<StampedPose>, std::string> read(ros::Bytes message) {
+    if (tf_) return tf_->read(message);
+    return messages_.read(message).map([](const StampedPose& pose) { return std::vector{pose}; });
+  }
+
+  bool is_of_owner(const dds::Message& message) {
+    if (owner_.is_owner(message.publisher, message.arrived_ns)) return true;
+    ++foreign_;
+    foreign_ns_ = message.arrived_ns;
+    return false;
+  }
+
+  void refuse(const dds::Message& message, const std::string& why) {
+    ++refused_;
+    refused_ns_ = message.arrived_ns;
+    log_(spdlog::level::warn, "{}: a message is not used: {}", topic_, why);
   }
 
   tl::expected<void, ExitCode> publish(const StampedPose& pose) {
@@ -141,6 +147,7 @@ class Live {
     if (now_ns - heard_ns_ > kSilent_ns)
       words.add("no odometry on %s for %.1f s", topic_.c_str(),
                 static_cast<double>(now_ns - heard_ns_) * 1e-9);
+    if (tf_ && !tf_->missing().empty()) words.add("%s", tf_->missing().c_str());
     if (refused_ns_ != 0 && now_ns - refused_ns_ < kTold_ns)
       words.add("messages that are no pose on %s", topic_.c_str());
     if (foreign_ns_ != 0 && now_ns - foreign_ns_ < kTold_ns)
@@ -148,11 +155,13 @@ class Live {
     health_.set_state(words.empty() ? ipc::HealthState::ok : ipc::HealthState::degraded, words.text());
   }
 
-  dds::Reader reader_;
+  Readers readers_;
   std::string topic_;
   LiveBus& bus_;
   const std::uint64_t epoch_ = static_cast<std::uint64_t>(ipc::monotonic_ns());
   OdometryMessages messages_;
+  std::optional<TfMessages> tf_;
+  std::string frames_;  // that the log tells of
   dds::TopicOwner owner_;
   services::LogEvery log_{std::chrono::seconds(10)};
   std::int64_t heard_ns_ = ipc::monotonic_ns();
@@ -165,26 +174,38 @@ class Live {
   std::uint64_t& lost_;
 };
 
-tl::expected<dds::Reader, std::string> open_reader(const LiveSource& source) {
-  auto participant = dds::Participant::open(source.network);
+dds::Topic topic_of(const std::string& name, const char* type) {
+  return {name, type, ros::type_hash_of(type).value_or("")};
+}
+
+tl::expected<Readers, std::string> open_readers(const LiveSource& source) {
+  const auto participant = dds::Participant::open(source.network);
   if (!participant) return tl::unexpected(participant.error());
-  return dds::Reader::open(*participant, {source.topic, "nav_msgs/msg/Odometry", kTypeHash}, kQos);
+  auto poses = source.tf ? dds::Reader::open(*participant, topic_of(source.topic, kTfType), kTfQos)
+                         : dds::Reader::open(*participant, topic_of(source.topic, kOdometryType), kQos);
+  if (!poses) return tl::unexpected(poses.error());
+  Readers readers{std::move(*poses), {}};
+  if (!source.tf) return readers;
+  auto standing = dds::Reader::open(*participant, topic_of(source.topic + "_static", kTfType), kStanding);
+  if (!standing) return tl::unexpected(standing.error());
+  readers.standing = std::move(*standing);
+  return readers;
 }
 
 }  // namespace
 
 std::string fault_of(const std::string& source) {
-  const auto parsed = parse(source);
+  const auto parsed = parse_live_source(source);
   return parsed ? "" : parsed.error();
 }
 
 ExitCode run_live(const std::string& source, std::uint64_t config_hash, ipc::Runtime& runtime,
                   services::Lifecycle& lifecycle) {
-  const auto parsed = parse(source);
+  const auto parsed = parse_live_source(source);
   if (!parsed) return ExitCode::configuration;
-  auto reader = open_reader(*parsed);
-  if (!reader) {
-    spdlog::error("odometry source '{}': {}", source, reader.error());
+  auto readers = open_readers(*parsed);
+  if (!readers) {
+    spdlog::error("odometry source '{}': {}", source, readers.error());
     return ExitCode::unavailable;
   }
   auto bus = LiveBus::open(runtime);
@@ -193,7 +214,7 @@ ExitCode run_live(const std::string& source, std::uint64_t config_hash, ipc::Run
     return services::exit_code_of(bus.error());
   }
   const services::BrokerWatch broker(runtime, lifecycle);
-  Live live(std::move(*reader), parsed->topic, config_hash, runtime, *bus);
+  Live live(std::move(*readers), *parsed, config_hash, runtime, *bus);
   services::notify_ready();
   while (!lifecycle.stopping()) {
     if (const auto done = live.step(); !done) return done.error();

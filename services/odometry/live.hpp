@@ -28,7 +28,7 @@ class OdometryMessages {
   std::string frames_;
 };
 
-/// Whether `source` is one for run_live: `ros2:/TOPIC`, with dds::kNetworkOptions behind '?'.
+/// Whether `source` is one for run_live: `ros2:/TOPIC` (LiveSource).
 bool is_live(const std::string& source);
 
 /// What is wrong with such a source, before anything is opened; empty if nothing is.

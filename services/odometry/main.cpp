@@ -29,7 +29,7 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option(
          "--source", options.source,
          "instead of odometry.source: tum:FILE, euroc:FILE, kitti:FILE?times=FILE, bag:PATH?topic=TOPIC, "
-         "bag:PATH?tf=PARENT/CHILD or, live, ros2:/TOPIC")
+         "bag:PATH?tf=PARENT/CHILD or, live, ros2:/TOPIC, ros2:/tf?tf=PARENT/CHILD")
       ->type_name("URI");
   app.add_option("--rate", options.rate,
                  "times the recorded pace, or max: as fast as the slowest reader takes it, losing nothing")

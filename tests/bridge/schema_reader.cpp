@@ -46,9 +46,11 @@ class SchemaReader {
   }
 
   nlohmann::json read_field(const std::string& type, const std::string& within) {
-    const std::size_t bracket = type.find("[]");
+    const std::size_t bracket = type.find('[');
     if (bracket == std::string::npos) return read_one(type, within);
-    const auto count = number<std::uint32_t>();
+    const std::string fixed = type.substr(bracket + 1, type.size() - bracket - 2);
+    const auto count =
+        fixed.empty() ? number<std::uint32_t>() : static_cast<std::uint32_t>(std::stoul(fixed));
     nlohmann::json array = nlohmann::json::array();
     for (std::uint32_t i = 0; i < count; ++i) array.push_back(read_one(type.substr(0, bracket), within));
     return array;

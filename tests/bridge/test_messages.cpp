@@ -11,6 +11,7 @@
 #include "services/common/ros/schemas.hpp"
 #include "tests/bridge/schema_reader.hpp"
 #include "tests/bridge/small_layers.hpp"
+#include "tests/support/ros_messages.hpp"
 
 namespace {
 
@@ -80,6 +81,18 @@ TEST_CASE("tf carries the pose as it is, stamps before 1970 too") {
   CHECK(transform["child_frame_id"] == "truck");
   CHECK(transform["transform"]["translation"] == json{{"x", 1.0}, {"y", 2.0}, {"z", 3.0}});
   CHECK(transform["transform"]["rotation"] == json{{"x", 0.5}, {"y", 0.5}, {"z", 0.5}, {"w", -0.5}});
+}
+
+TEST_CASE("odometry is defined as it is sent, and has its hash") {
+  const auto schema = ros::schema_of("nav_msgs/msg/Odometry");
+  REQUIRE(schema);
+  const json odometry = test::read_message(*schema, test::odometry_message(1'000'000'002, 3.5));
+  CHECK(odometry["header"] == json{{"stamp", {{"sec", 1}, {"nanosec", 2}}}, {"frame_id", "odom"}});
+  CHECK(odometry["child_frame_id"] == "base_link");
+  CHECK(odometry["pose"]["pose"]["position"] == json{{"x", 3.5}, {"y", 0.0}, {"z", 0.0}});
+  CHECK(odometry["pose"]["covariance"].size() == 36);
+  CHECK(ros::type_hash_of("nav_msgs/msg/Odometry") ==
+        "RIHS01_3cc97dc7fb7502f8714462c526d369e35b603cfc34d946e3f2eda2766dfec6e0");
 }
 
 TEST_CASE("a path's poses are turned by their yaw; one of no points is a path") {

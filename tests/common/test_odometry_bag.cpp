@@ -142,5 +142,5 @@ TEST_CASE("sources that say nothing, or something else, are refused") {
              Contains("has no topic '/none'; it has: /odom (nav_msgs/msg/Odometry)"));
   std::vector<std::string> ignored;
   CHECK_THAT(services::read_odometry_source("bag:?topic=/odom", ignored).error(),
-             Contains("no path in it (gvom-map --bag PATH fills that in)"));
+             Contains("(--bag PATH of gvom-map and gvom-run fills that in)"));
 }

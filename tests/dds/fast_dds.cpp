@@ -69,9 +69,10 @@ fast::DataReader* hear(fast::DomainParticipant* participant, fast::Topic* topic,
 }
 
 fast::DataWriter* make_writer(fast::DomainParticipant* participant, fast::Topic* topic,
-                              fast::DataWriterListener* mouth) {
+                              fast::DataWriterListener* mouth, bool latched) {
   fast::DataWriterQos qos = fast::DATAWRITER_QOS_DEFAULT;
-  qos.reliability().kind = fast::BEST_EFFORT_RELIABILITY_QOS;
+  qos.reliability().kind = latched ? fast::RELIABLE_RELIABILITY_QOS : fast::BEST_EFFORT_RELIABILITY_QOS;
+  if (latched) qos.durability().kind = fast::TRANSIENT_LOCAL_DURABILITY_QOS;
   qos.history().depth = 1;
   qos.publish_mode().kind = fast::SYNCHRONOUS_PUBLISH_MODE;
   qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;

@@ -64,8 +64,9 @@ fast::Topic* open_topic(fast::DomainParticipant* participant, fast::TopicDataTyp
 fast::DataReader* hear(fast::DomainParticipant* participant, fast::Topic* topic, bool latched,
                        fast::DataReaderListener* ear);
 
-/// A writer as drivers have it: best effort.
+/// A writer as drivers have it: best effort. Latched: reliable, and its newest message is for those who come
+/// later.
 fast::DataWriter* make_writer(fast::DomainParticipant* participant, fast::Topic* topic,
-                              fast::DataWriterListener* mouth);
+                              fast::DataWriterListener* mouth, bool latched = false);
 
 }  // namespace gvom::dds::test

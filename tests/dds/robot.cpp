@@ -1,7 +1,8 @@
 // The other nodes of a robot, in a process that is not ours: a driver with odometry, and who looks at the
 // map. By Fast DDS, until SIGTERM; then one line for each topic says what came or went.
-//   dds_robot DOMAIN drive POINTS RATE_HZ   sends /points (x, y, z, t, ring) and, at 50 Hz, /odom
-//   dds_robot DOMAIN look TOPIC=TYPE...     reads them as RViz does; names as ROS has them
+//   dds_robot DOMAIN drive POINTS RATE_HZ [tf]  sends /points (x, y, z, t, ring) and, at 50 Hz, /odom, or /tf
+//                                               of base_footprint, on which /tf_static says base_link stands
+//   dds_robot DOMAIN look TOPIC=TYPE...         reads them as RViz does; names as ROS has them
 #include <signal.h>
 
 #include <chrono>
@@ -72,10 +73,11 @@ void set_stamp(gvom::test::Octets& message, std::int64_t stamp_ns) {
 
 class Publisher {
  public:
-  Publisher(fast::DomainParticipant* participant, const std::string& topic, const std::string& type)
+  Publisher(fast::DomainParticipant* participant, const std::string& topic, const std::string& type,
+            bool latched = false)
       : topic_(topic),
         writer_(make_writer(participant, open_topic(participant, new RawType(type), type, "rt" + topic),
-                            &mouth_)) {}
+                            &mouth_, latched)) {}
 
   /// Until somebody listens.
   void meet() const {
@@ -108,9 +110,17 @@ void at_rate(double rate_hz, Send send) {
   }
 }
 
-void drive(fast::DomainParticipant* participant, unsigned points, double rate_hz) {
+gvom::test::Octets transform(const char* parent, const char* child, std::int64_t stamp_ns, double x_m) {
+  return gvom::test::tf_message({{parent, child, stamp_ns, {x_m, 0, 0}}});
+}
+
+void drive(fast::DomainParticipant* participant, unsigned points, double rate_hz, bool by_tf) {
   constexpr double kOdometry_hz = 50;
-  Publisher poses(participant, "/odom", "nav_msgs::msg::dds_::Odometry_");
+  const std::string tf_type = "tf2_msgs::msg::dds_::TFMessage_";
+  Publisher poses(participant, by_tf ? "/tf" : "/odom", by_tf ? tf_type : "nav_msgs::msg::dds_::Odometry_");
+  Publisher standing(participant, "/tf_static", tf_type, true);
+  auto mount = transform("base_footprint", "base_link", 0, 0);
+  standing.send(mount);
   Publisher clouds(participant, "/points", "sensor_msgs::msg::dds_::PointCloud2_");
   poses.meet();
   clouds.meet();
@@ -118,8 +128,9 @@ void drive(fast::DomainParticipant* participant, unsigned points, double rate_hz
   std::thread odometry([&] {
     at_rate(kOdometry_hz, [&] {
       const std::int64_t stamp_ns = wall_ns();
-      auto pose = gvom::test::odometry_message(stamp_ns,
-                                               kSpeed_mps * 1e-9 * static_cast<double>(stamp_ns - begin_ns));
+      const double x_m = kSpeed_mps * 1e-9 * static_cast<double>(stamp_ns - begin_ns);
+      auto pose = by_tf ? transform("odom", "base_footprint", stamp_ns, x_m)
+                        : gvom::test::odometry_message(stamp_ns, x_m);
       poses.send(pose);
     });
   });
@@ -201,8 +212,8 @@ int main(int argc, char** argv) {
   fast::DomainParticipant* const participant = join(std::atoi(argv[1]));
   if (participant == nullptr) return 69;
   const std::string mode = argv[2];
-  if (mode == "drive" && argc == 5)
-    drive(participant, static_cast<unsigned>(std::atoi(argv[3])), std::atof(argv[4]));
+  if (mode == "drive" && argc >= 5)
+    drive(participant, static_cast<unsigned>(std::atoi(argv[3])), std::atof(argv[4]), argc > 5);
   else if (mode == "look")
     look(participant, argc - 3, argv + 3);
   else

@@ -30,11 +30,13 @@ constexpr const char* kVehicle =
 
 Vehicle vehicle_in(const std::string& folder, const std::string& domain, Input input) {
   const std::string network = "?interface=lo&domain=" + domain;
-  const bool live = input == Input::ros2;
+  const bool live = input != Input::recording;
+  const std::string pose =
+      input == Input::tf ? "ros2:/tf" + network + "&tf=odom/base_link" : "ros2:/odom" + network;
   if (!live) gvom::test::simulated(folder, 2.0);
   std::string text = kVehicle;
   for (const auto& [place, value] :
-       {std::pair<std::string, std::string>("%1", live ? "ros2:/odom" + network : "tum:odometry.tum"),
+       {std::pair<std::string, std::string>("%1", live ? pose : "tum:odometry.tum"),
         {"%2", std::to_string(gvom::test::free_port())},
         {"%3", domain},
         {"%4", live ? "ros2:/points" + network : "ouster:front.pcap?meta=front.json"}})
@@ -45,20 +47,21 @@ Vehicle vehicle_in(const std::string& folder, const std::string& domain, Input i
 
 }  // namespace
 
-RobotGraph::RobotGraph(int domain, Input input) : domain_(std::to_string(domain)) {
+RobotGraph::RobotGraph(int domain, Input input) : domain_(std::to_string(domain)), input_(input) {
   graph = std::make_unique<Graph>(vehicle_in(folder.path(), domain_, input));
   observer = std::make_unique<Observer>(folder.path());
   REQUIRE(observer->is_up());
   graph->start_readers();
-  odometry = graph->replay(input == Input::ros2 ? std::vector<std::string>{}
-                                                : std::vector<std::string>{"--rate", "1", "--loop"});
+  odometry = graph->replay(input != Input::recording ? std::vector<std::string>{}
+                                                     : std::vector<std::string>{"--rate", "1", "--loop"});
   bridge = graph->start("gvom-bridge", {});
   REQUIRE(graph->ingest("top").says("top from"));
   REQUIRE(eventually([this] { return observer->health("gvom-bridge").has_value(); }));
 }
 
 std::unique_ptr<Peer> RobotGraph::drive(int points) const {
-  const std::vector<std::string> arguments{domain_, "drive", std::to_string(points), "10"};
+  std::vector<std::string> arguments{domain_, "drive", std::to_string(points), "10"};
+  if (input_ == Input::tf) arguments.push_back("tf");
   auto robot = std::make_unique<Peer>(arguments, "dds_robot");
   REQUIRE_FALSE(robot->line("ready").empty());
   return robot;

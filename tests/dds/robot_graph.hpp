@@ -14,6 +14,7 @@ namespace gvom::dds::test {
 /// Where lidar and odometry come from.
 enum class Input {
   ros2,       ///< Whoever drives; the test starts it.
+  tf,         ///< The same, its pose by /tf.
   recording,  ///< A simulated drive, again and again.
 };
 
@@ -43,6 +44,7 @@ class RobotGraph {
 
  private:
   const std::string domain_;
+  const Input input_;
 };
 
 }  // namespace gvom::dds::test

@@ -35,6 +35,10 @@ bool gets(Peer& reader, long long number) {
   return false;
 }
 
+bool tells(const RobotGraph& robots, const std::string& process, const std::string& what) {
+  return robots.reason(process).find(what) != std::string::npos;
+}
+
 std::uint64_t own_memory_bytes(pid_t pid) {
   std::ifstream file("/proc/" + std::to_string(pid) + "/status");
   for (std::string line; std::getline(file, line);)
@@ -78,7 +82,7 @@ TEST_CASE("readers that stop and are killed hold up neither the bridge nor other
 TEST_CASE("a driver that is killed within a cloud leaves whole sweeps, and is told; the next one is mapped") {
   if (!has_large_buffers()) return;
   constexpr int kPoints = 120'000;
-  RobotGraph robots(62, Input::ros2);
+  RobotGraph robots(62, Input::tf);
   for (int i = 0; i < 3; ++i) {
     INFO("driver " << i);
     const auto driver = robots.drive(kPoints);
@@ -86,8 +90,10 @@ TEST_CASE("a driver that is killed within a cloud leaves whole sweeps, and is to
     REQUIRE(eventually([&] { return robots.of_ingest("sweeps_mapped") > mapped; }));
     REQUIRE_FALSE(driver->line("sending").empty());
     driver->send(SIGKILL);
-    CHECK(eventually([&] { return robots.reason(kIngest).find("no packets for") != std::string::npos; }));
+    CHECK(eventually([&] { return tells(robots, kIngest, "no packets for"); }));
+    CHECK(eventually([&] { return tells(robots, "gvom-odometry", "no odometry on /tf for"); }));
   }
+  CHECK(robots.odometry->says("the pose of base_link in odom, by odom/base_footprint"));
   std::uint64_t returns = robots.of_ingest("returns_used");
   for (const char* filtered : {"near", "far", "body", "not_finite", "overflow"})
     returns += robots.of_ingest(std::string("drop_return_") + filtered);
@@ -100,7 +106,7 @@ TEST_CASE("a driver that is killed within a cloud leaves whole sweeps, and is to
 TEST_CASE("without its interface the bridge says so and its other sinks go on; it joins when that is there") {
   run("ip link set lo down");
   RobotGraph robots(63, Input::recording);
-  CHECK(eventually([&] { return robots.reason("gvom-bridge").find("ros2: ROS 2: ") != std::string::npos; }));
+  CHECK(eventually([&] { return tells(robots, "gvom-bridge", "ros2: ROS 2: "); }));
   CHECK_THAT(robots.reason("gvom-bridge"), Contains("lo"));
   CHECK(robots.recording_flows());
 

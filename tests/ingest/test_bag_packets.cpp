@@ -98,7 +98,8 @@ TEST_CASE("a bag's topic that can't be a lidar is refused with what helps") {
   TopicBag ouster(kOusterType);
   ouster.add(kNoon_ns, ouster_message(ByteVector(48)));
   CHECK(open_error("bag:" + folder.path()).find("needs topic=TOPIC (gvomctl bag ") != std::string::npos);
-  CHECK(open_error("bag:?topic=/lidar").find("(gvom-map --bag PATH fills that in)") != std::string::npos);
+  CHECK(open_error("bag:?topic=/lidar").find("(--bag PATH of gvom-map and gvom-run fills that in)") !=
+        std::string::npos);
   CHECK(open_error(ouster.uri()).find("needs meta=FILE.json") != std::string::npos);
   CHECK(open_error(ouster.uri("&model=VLP-16"))
             .find("unknown option 'model' (bag takes meta, serial, topic)") != std::string::npos);

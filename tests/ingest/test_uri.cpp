@@ -1,16 +1,17 @@
-#include "services/ingest/uri.hpp"
+#include "services/common/source_uri.hpp"
 #include "tests/ingest/recordings.hpp"
 
+using namespace gvom;
 using namespace gvom::ingest;
 using gvom::test::open_error;
 
 TEST_CASE("a URI is scheme, path and options") {
-  const auto uri = parse_source_uri("ouster:/a/b:c.pcap?meta=/x=y.json&port=7502");
+  const auto uri = services::parse_source_uri("ouster:/a/b:c.pcap?meta=/x=y.json&port=7502");
   REQUIRE(uri.has_value());
   CHECK(uri->scheme == "ouster");
   CHECK(uri->path == "/a/b:c.pcap");
   CHECK(uri->option("meta") == "/x=y.json");
-  CHECK(port_option(*uri).value() == 7502);
+  CHECK(services::port_option(*uri).value() == 7502);
   CHECK_FALSE(uri->option("bind").has_value());
 }
 

@@ -45,10 +45,11 @@ TEST_CASE("only ros2: is live, and what is wrong with it is told before anything
   CHECK_FALSE(odometry::is_live("tum:odometry.tum"));
 #ifdef GVOM_HAS_DDS
   CHECK(odometry::fault_of("ros2:/odom?domain=5&interface=lo").empty());
+  CHECK(odometry::fault_of("ros2:/tf?tf=odom/base_link&interface=lo").empty());
   CHECK(odometry::fault_of("ros2:odom") ==
         "odometry source 'ros2:odom': topic 'odom' does not begin with a slash");
-  for (const char* source : {"ros2:/odom?", "ros2:/odom?domain", "ros2:/odom?domain=",
-                             "ros2:/odom?domain=1&domain=2", "ros2:/odom?tf=a/b", "ros2:/odom?domain=-1"}) {
+  for (const char* source : {"ros2:/odom?domain", "ros2:/odom?domain=", "ros2:/odom?domain=1&domain=2",
+                             "ros2:/tf?tf=odom", "ros2:/tf?tf=/base_link", "ros2:/odom?domain=-1"}) {
     INFO(source);
     CHECK_FALSE(odometry::fault_of(source).empty());
   }

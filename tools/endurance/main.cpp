@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "services/common/config_file.hpp"
-#include "services/ingest/uri.hpp"
+#include "services/common/source_uri.hpp"
 #include "tools/endurance/soak.hpp"
 
 namespace {
@@ -47,8 +47,8 @@ int fail(const std::string& message, ExitCode code) {
 }
 
 tl::expected<std::uint16_t, std::string> port_of(const services::LidarConfig& lidar) {
-  return ingest::parse_source_uri(lidar.source)
-      .and_then([](const auto& uri) { return ingest::parse_port(uri.path); })
+  return services::parse_source_uri(lidar.source)
+      .and_then([](const auto& uri) { return services::parse_port(uri.path); })
       .map_error([&](const std::string& error) {
         return "lidar " + lidar.name + ": its source is no UDP port: " + error;
       });

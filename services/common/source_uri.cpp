@@ -1,8 +1,8 @@
-#include "services/ingest/uri.hpp"
+#include "services/common/source_uri.hpp"
 
 #include <charconv>
 
-namespace gvom::ingest {
+namespace gvom::services {
 
 std::optional<std::string> SourceUri::option(const std::string& key) const {
   const auto found = options.find(key);
@@ -43,8 +43,9 @@ tl::expected<SourceUri, std::string> parse_source_uri(const std::string& text) {
   uri.scheme = text.substr(0, colon);
   uri.path = text.substr(colon + 1, question == std::string::npos ? question : question - colon - 1);
   if (uri.path.empty()) {
-    return tl::unexpected("source '" + text + "': nothing between ':' and '?'" +
-                          (uri.scheme == "bag" ? " (gvom-map --bag PATH fills that in)" : ""));
+    return tl::unexpected(
+        "source '" + text + "': nothing between ':' and '?'" +
+        (uri.scheme == "bag" ? " (--bag PATH of gvom-map and gvom-run fills that in)" : ""));
   }
   if (question != std::string::npos) {
     auto parsed = parse_options(std::string_view(text).substr(question + 1), uri);
@@ -95,4 +96,4 @@ tl::expected<std::optional<std::uint16_t>, std::string> port_option(const Source
   return *port;
 }
 
-}  // namespace gvom::ingest
+}  // namespace gvom::services

@@ -10,7 +10,7 @@
 
 #include <tl/expected.hpp>
 
-namespace gvom::ingest {
+namespace gvom::services {
 
 /// A URI in its parts. `path` is what stands between ':' and '?': a file, a folder or a UDP port.
 struct SourceUri {
@@ -40,4 +40,4 @@ tl::expected<std::optional<std::uint64_t>, std::string> number_option(const Sour
 /// The option `port`, if it is there.
 tl::expected<std::optional<std::uint16_t>, std::string> port_option(const SourceUri& uri);
 
-}  // namespace gvom::ingest
+}  // namespace gvom::services
