@@ -20,8 +20,9 @@ std::string loss(const std::string& interface, const InterfaceAddresses& before,
 
 }  // namespace
 
-TEST_CASE("the loopback is a network only for who names it") {
-  CHECK(usable({kLoopback}, "").empty());
+TEST_CASE("the loopback is a network for who names it, and where there is no other") {
+  CHECK(usable({kLoopback}, "").size() == 1);
+  CHECK(usable({}, "").empty());
   CHECK(usable({kLoopback, kWired}, "").size() == 1);
   CHECK(usable({kLoopback, kWired}, "lo").size() == 1);
   CHECK(usable({kLoopback, kWired}, "127.0.0.1").size() == 1);
@@ -41,7 +42,15 @@ TEST_CASE("a named interface is lost when it is down, removed, or elsewhere") {
 TEST_CASE("without a name the network is lost with its last interface") {
   CHECK(loss("", {kLoopback, kWired, kWireless}, {kLoopback, kWireless}).empty());
   CHECK_FALSE(loss("", {kLoopback, kWired, kWireless}, {kLoopback, kWiredElsewhere}).empty());
-  CHECK(loss("", {kLoopback}, {}).empty());
+  CHECK(loss("", {}, {kWired}).empty());
+}
+
+TEST_CASE("who joined the loopback for want of a network joins anew when there is one") {
+  CHECK(loss("", {kLoopback}, {kLoopback}).empty());
+  CHECK(loss("", {kLoopback}, {kLoopback, kWired}) ==
+        "only the loopback was joined, and there is a network now: 10.0.0.7 of eth0");
+  CHECK(loss("", {kLoopback}, {}) == "the network that was joined is gone: 127.0.0.1 of lo");
+  CHECK(loss("lo", {kLoopback}, {kLoopback, kWired}).empty());
 }
 
 TEST_CASE("this machine's loopback is found while it is up") {

@@ -51,7 +51,12 @@ InterfaceAddresses usable(const InterfaceAddresses& all, const std::string& inte
   std::copy_if(all.begin(), all.end(), std::back_inserter(found), [&](const InterfaceAddress& one) {
     return interface.empty() ? !one.loopback : one.name == interface || one.address == interface;
   });
-  return found;
+  return interface.empty() && found.empty() ? all : found;
+}
+
+bool is_loopback(const InterfaceAddresses& addresses) {
+  return !addresses.empty() && std::all_of(addresses.begin(), addresses.end(),
+                                           [](const InterfaceAddress& one) { return one.loopback; });
 }
 
 std::string loss_between(const std::string& interface, const InterfaceAddresses& before,
@@ -60,6 +65,9 @@ std::string loss_between(const std::string& interface, const InterfaceAddresses&
   std::copy_if(before.begin(), before.end(), std::back_inserter(lost), [&](const InterfaceAddress& one) {
     return std::find(now.begin(), now.end(), one) == now.end();
   });
+  const InterfaceAddresses found = usable(now, interface);
+  if (interface.empty() && is_loopback(before) && !found.empty() && !is_loopback(found))
+    return "only the loopback was joined, and there is a network now: " + names_of(found);
   if (lost.empty() || (interface.empty() && lost.size() < before.size())) return {};
   return "the network that was joined is gone: " + names_of(lost);
 }

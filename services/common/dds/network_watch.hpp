@@ -24,11 +24,16 @@ using InterfaceAddresses = std::vector<InterfaceAddress>;
 /// Those of this machine now.
 InterfaceAddresses interface_addresses();
 
-/// Those that a domain may use: of `interface`, a name or an address; without one all but the loopback's.
+/// Those that a domain may use: of `interface`, a name or an address; without one all but the loopback's, or
+/// those where there is nothing else.
 InterfaceAddresses usable(const InterfaceAddresses& all, const std::string& interface);
 
+/// Whether there are some, all of the loopback.
+bool is_loopback(const InterfaceAddresses& addresses);
+
 /// Why who joined by `before` has to join anew; empty if not. Of a named interface each address counts;
-/// without one it is not known which Cyclone took, so only the loss of all does. Nothing before: never.
+/// without one it is not known which Cyclone took, so only the loss of all does, and the first network beside
+/// the loopback. Nothing before: never.
 std::string loss_between(const std::string& interface, const InterfaceAddresses& before,
                          const InterfaceAddresses& now);
 

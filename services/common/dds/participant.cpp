@@ -37,9 +37,15 @@ constexpr const char* kGraphTypeHash =
     "RIHS01_91a0593bacdcc50ea9bdcf849a938b128412cc1ea821245c663bcd26f83c295e";
 constexpr std::string_view kEnclave = "enclave=/;";
 
-/// Cyclone would take the loopback where there is nothing else yet, and stay there when the network comes.
-bool has_no_network(const DomainOptions& domain) {
-  return domain.interface.empty() && domain.config_file.empty() && usable(interface_addresses(), "").empty();
+/// Where there is nothing but the loopback that is the network, as if it were named: else it would be one
+/// without multicast.
+DomainOptions with_network(DomainOptions domain) {
+  if (!domain.interface.empty() || !domain.config_file.empty()) return domain;
+  const InterfaceAddresses addresses = usable(interface_addresses(), "");
+  if (!is_loopback(addresses)) return domain;
+  spdlog::warn("ROS 2: no network but the loopback: only this machine is heard, until there is one");
+  domain.interface = addresses.front().name;
+  return domain;
 }
 
 void erase(std::vector<Guid>& guids, const Guid& guid) {
@@ -80,12 +86,12 @@ tl::expected<std::shared_ptr<Participant>, std::string> Participant::open(const 
   const std::lock_guard lock(domains.mutex);
   std::weak_ptr<Participant>& known = domains.open[options.domain.id];
   if (auto participant = known.lock()) {
-    if (participant->xml_ == *xml && participant->distro_ == options.distro) return participant;
+    if (participant->asked_xml_ == *xml && participant->distro_ == options.distro) return participant;
     return tl::unexpected("ROS 2: domain " + std::to_string(options.domain.id) +
                           ": this process is in it already, with other options");
   }
   std::unique_ptr<Participant> participant(new Participant(options));
-  participant->xml_ = *xml;
+  participant->asked_xml_ = *xml;
   const auto joined = participant->join(options);
   if (!joined) return tl::unexpected("ROS 2: " + joined.error());
   std::shared_ptr<Participant> shared(participant.release(), leave);
@@ -102,9 +108,8 @@ void Participant::leave(Participant* participant) {
 tl::expected<void, std::string> Participant::join(const ParticipantOptions& options) {
   auto node = node_name(options.node);
   if (!node) return tl::unexpected(node.error());
-  if (has_no_network(options.domain))
-    return tl::unexpected(
-        std::string("there is no network but the loopback; for this machine alone: interface lo"));
+  const auto xml = domain_xml(with_network(options.domain));
+  if (!xml) return tl::unexpected(xml.error());
   take_cyclone_log();
   const CycloneWords words;
   const auto failed = [&](const char* what, dds_return_t code) {
@@ -113,7 +118,7 @@ tl::expected<void, std::string> Participant::join(const ParticipantOptions& opti
                           (said.empty() ? dds_strretcode(code) : said));
   };
   const auto id = static_cast<dds_domainid_t>(options.domain.id);
-  domain_ = dds_create_domain(id, xml_.c_str());
+  domain_ = dds_create_domain(id, xml->c_str());
   if (domain_ == DDS_RETCODE_PRECONDITION_NOT_MET) return failed("this process is in it already", domain_);
   if (domain_ < 0) return failed("Cyclone DDS does not start", domain_);
   const QosPtr qos(dds_create_qos());

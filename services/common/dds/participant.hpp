@@ -28,8 +28,7 @@ class GraphWriter;
 class Participant {
  public:
   /// Joins the network. Errors: what domain_xml refuses, a domain that this process is in already, an
-  /// interface that is not there, nothing but the loopback where nobody asked for that, a configuration that
-  /// Cyclone refuses (in its own words).
+  /// interface that is not there, a configuration that Cyclone refuses (in its own words).
   static tl::expected<std::shared_ptr<Participant>, std::string> open(const ParticipantOptions& options);
 
   /// Leaves it.
@@ -40,7 +39,8 @@ class Participant {
   [[nodiscard]] const Guid& guid() const { return entities_.participant; }
   [[nodiscard]] Distro distro() const { return distro_; }
   /// Why nobody can be reached any more, and this has to be opened anew when all have let it go: its
-  /// interface went down or away, or has another address. Empty if all is well. Cheap.
+  /// interface went down or away, or has another address; or it was the loopback, and a network has come.
+  /// Empty if all is well. Cheap.
   [[nodiscard]] std::string network_loss() { return network_.loss(); }
   [[nodiscard]] std::int32_t handle() const { return participant_; }  ///< Cyclone's.
 
@@ -59,7 +59,7 @@ class Participant {
 
   const Distro distro_;
   NetworkWatch network_;  // what was there just before it joined
-  std::string xml_;
+  std::string asked_xml_;
   std::int32_t domain_ = 0;  // handles of Cyclone's
   std::int32_t participant_ = 0;
   std::mutex mutex_;  // of what follows
