@@ -7,6 +7,7 @@
 #include "tests/processes/observer.hpp"
 #include "tests/processes/recordings.hpp"
 #include "tests/processes/replays.hpp"
+#include "tests/support/recorded_bag.hpp"
 #include "tests/tools/temporary_folder.hpp"
 
 using namespace gvom::test;
@@ -72,6 +73,18 @@ TEST_CASE("a simulated drive of two lidars ends in the same layers at any speed"
   const std::string expected = map_offline(vehicle, "maps");
   CHECK(map_count(expected) == 40);
   for (const char* rate : {"1", "4", "max"}) check_replay(vehicle, rate, expected);
+}
+
+TEST_CASE("a bag of that drive ends in them as well") {
+  const TemporaryFolder folder;
+  Vehicle vehicle = simulated(folder.path(), 1);
+  const std::string expected = map_offline(vehicle, "maps");
+  record_bag(folder.path(), vehicle.lidars, folder.path() + "/bag");
+  vehicle.sets.push_back("odometry.source='bag:bag?topic=/odom'");
+  for (const std::string& lidar : vehicle.lidars)
+    vehicle.sets.push_back("lidars." + lidar + ".source='bag:bag?topic=" + packets_topic(lidar) +
+                           "&meta=" + lidar + ".json'");
+  check_replay(vehicle, "max", expected);
 }
 
 TEST_CASE("the real street ends in the same layers at any speed") {

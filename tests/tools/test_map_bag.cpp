@@ -4,11 +4,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "services/common/odometry_file.hpp"
-#include "services/ingest/pcap_reader.hpp"
-#include "tests/support/db3_builder.hpp"
-#include "tests/support/mcap_builder.hpp"
-#include "tests/support/ros_messages.hpp"
+#include "tests/support/recorded_bag.hpp"
 #include "tests/tools/temporary_folder.hpp"
 #include "tools/map/bag_sources.hpp"
 #include "tools/map/map_writer.hpp"
@@ -39,37 +35,6 @@ void record(const std::string& folder) {
   REQUIRE(sim::simulate(one_lidar(), world, options, folder));
 }
 
-Octets pose_message(const StampedPose& pose) {
-  CdrWriter cdr;
-  cdr.header(pose.stamp_ns, "odom").text("base_link");
-  const Eigen::Vector3d& p = pose.T_odom_base.translation_m;
-  const Eigen::Quaterniond& q = pose.T_odom_base.rotation;
-  for (const double value : {p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w()}) cdr.add(value);
-  return cdr.bytes();
-}
-
-/// The recording as a split bag: packets in SQLite, odometry in MCAP, by a recorder whose clock is late.
-void record_bag(const std::string& folder, const std::string& bag) {
-  constexpr std::int64_t kLate_ns = 60'000'000'000;
-  fs::create_directory(bag);
-  ingest::SourceState state;
-  auto pcap = ingest::PcapReader::open(folder + "/front.pcap", {}, state);
-  REQUIRE(pcap.has_value());
-  Db3Builder packets(bag + "/bag_0.db3");
-  const int topic = packets.topic("/ouster/lidar_packets", "ouster_sensor_msgs/msg/PacketMsg");
-  ingest::Packet packet;
-  std::int64_t log_ns = kLate_ns;
-  while ((*pcap)->next(packet, std::chrono::milliseconds(0)).value() == ingest::PacketEvent::packet)
-    packets.add(topic, ++log_ns, ouster_message(Octets(packet.data, packet.data + packet.size)));
-  McapBuilder odometry({"zstd", 10});
-  const auto channel = odometry.topic("/odom", "nav_msgs/msg/Odometry");
-  std::vector<std::string> warnings;
-  const auto poses = services::read_odometry_source("tum:" + folder + "/odometry.tum", warnings);
-  REQUIRE(poses.has_value());
-  for (const StampedPose& pose : *poses) odometry.add(channel, pose.stamp_ns + kLate_ns, pose_message(pose));
-  odometry.write(bag + "/bag_1.mcap");
-}
-
 int map(const services::VehicleConfig& config, const tools::MapWriterOptions& options) {
   auto mapper = tools::OfflineMapper::open(config, config.odometry.source);
   INFO((mapper ? "" : mapper.error().what));
@@ -93,7 +58,7 @@ TEST_CASE("a bag's maps are those of the same packets in a pcap, to the byte") {
   TemporaryFolder folder;
   const std::string& path = folder.path();
   record(path);
-  record_bag(path, path + "/bag");
+  record_bag(path, {"front"}, path + "/bag");
   auto config = one_lidar();
   const std::string meta = "meta=" + path + "/front.json";
   config.lidars[0].source = "ouster:" + path + "/front.pcap?" + meta;
@@ -101,7 +66,7 @@ TEST_CASE("a bag's maps are those of the same packets in a pcap, to the byte") {
   const int maps = map(config, {path + "/a", false, 0, "", ""});
   CHECK(maps >= 3);
 
-  config.lidars[0].source = "bag:?topic=/ouster/lidar_packets&" + meta;
+  config.lidars[0].source = "bag:?topic=/front/lidar_packets&" + meta;
   config.odometry.source = "bag:?topic=/odom";
   CHECK(tools::fill_bag(config, path + "/bag") == 2);
   CHECK(map(config, {path + "/b", false, 0, "", ""}) == maps);
