@@ -25,6 +25,7 @@ stop() {  # stop NAME: returns its exit code
   done
   if kill -KILL "$pid" 2> /dev/null; then echo "${0##*/}: $1 did not stop: killed" >&2; fi
   wait "$pid" || code=$?
+  if ((code == 143)); then code=0; fi  # SIGTERM came before it had begun
   return "$code"
 }
 
