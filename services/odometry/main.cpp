@@ -83,7 +83,8 @@ ExitCode live(const std::string& source, const services::VehicleConfig& config,
 
 int main(int argc, char** argv) {
   services::Lifecycle lifecycle(services::kLeaveWithin);
-  services::Cli cli(kName, "Publishes the odometry of a recording: the clock of a replay.");
+  services::Cli cli(kName,
+                    "Publishes the odometry of a recording, as the clock of its replay, or of ROS 2 live.");
   Options options;
   add_options(cli.app(), options);
   cli.app().footer("Example:\n  gvom-odometry --config vehicle.yaml --source tum:odometry.tum --rate max");
