@@ -89,7 +89,6 @@ int drive_live(const services::VehicleConfig& config, const driving::CampaignOpt
 }  // namespace
 
 int main(int argc, char** argv) {
-  services::Lifecycle lifecycle;
   CLI::App app{
       "Drives a simulated vehicle by the reference planner, in lock-step: simulated sweeps are mapped "
       "and fused, the planner plans, the vehicle moves."};
@@ -150,7 +149,10 @@ int main(int argc, char** argv) {
   if (!driving::read_seeds(seeds, options))
     return fail(ExitCode::usage, "--seeds: expected N or FIRST..LAST");
   if (figures) return drive_course(*config, options);
-  if (live) return drive_live(*config, options, lifecycle);
+  if (live) {
+    services::Lifecycle lifecycle;  // in lock-step a signal ends it at once
+    return drive_live(*config, options, lifecycle);
+  }
   const driving::Making making{command_of(vehicle, sets, options), driving::hash_of_file(vehicle)};
   return drive_all(*config, options, rows_path, making);
 }
