@@ -31,9 +31,10 @@ struct Ros2Config {
   std::string node = "/gvom";  ///< Its full name; stands for /gvom in the topics' names.
   std::string topics =
       "/gvom/costmap,/gvom/grid_map,/gvom/points,/gvom/voxels,/gvom/plan,/gvom/trajectory,"
-      "/diagnostics";       ///< Which are offered, between commas.
-  std::string interface;    ///< A name or an address; empty: what Cyclone DDS finds beside the loopback.
-  std::string peers;        ///< That multicast does not reach, between commas.
+      "/diagnostics";  ///< Which are offered, between commas.
+  std::string
+      interface;      ///< A name or an address; empty: what Cyclone DDS finds beside the loopback, else that.
+  std::string peers;  ///< That multicast does not reach, between commas.
   std::string config_file;  ///< More of Cyclone DDS's XML; empty: none.
 };
 

@@ -59,7 +59,7 @@ std::vector<VehicleRow> bridge_rows() {
         "that are offered, between commas; /tf only if nobody else says where the vehicle is"},
        [](V& c) -> Field { return &c.bridge.ros2.topics; }},
       {{"bridge.ros2.interface", "", Rule::text, 0, 0, kOptional,
-        "of the network, its name or address; empty: what Cyclone DDS finds beside the loopback"},
+        "of the network, its name or address; empty: what Cyclone DDS finds beside the loopback, else that"},
        [](V& c) -> Field { return &c.bridge.ros2.interface; }},
       {{"bridge.ros2.peers", "", Rule::text, 0, 0, kOptional,
         "hosts that multicast does not reach, between commas"},

@@ -98,9 +98,9 @@ int main(int argc, char** argv) {
     return check(*services::find_lidar(config, name).value());
   });
   cli.app().footer(
-      "lidars.NAME.source, live: ouster-udp:PORT?meta=FILE, velodyne-udp:PORT?model=M, ros2:/TOPIC; "
-      "recorded: "
-      "ouster:FILE.pcap?meta=FILE, velodyne:FILE.pcap?model=M, scans:FOLDER, bag:PATH?topic=TOPIC\n\n"
+      "lidars.NAME.source, live: ouster-udp:PORT?meta=FILE, velodyne-udp:PORT?model=M, ros2:/TOPIC;\n"
+      "recorded: ouster:FILE.pcap?meta=FILE, velodyne:FILE.pcap?model=M, scans:FOLDER, "
+      "bag:PATH?topic=TOPIC\n\n"
       "Examples:\n"
       "  gvom-ingest --config vehicle.yaml --lidar front --check\n"
       "  gvom-ingest --config vehicle.yaml --lidar front --set "

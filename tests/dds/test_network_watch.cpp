@@ -23,6 +23,7 @@ std::string loss(const std::string& interface, const InterfaceAddresses& before,
 TEST_CASE("the loopback is a network for who names it, and where there is no other") {
   CHECK(usable({kLoopback}, "").size() == 1);
   CHECK(usable({}, "").empty());
+  CHECK(usable({kLoopback}, "", false).empty());  // a configuration file may say otherwise
   CHECK(usable({kLoopback, kWired}, "").size() == 1);
   CHECK(usable({kLoopback, kWired}, "lo").size() == 1);
   CHECK(usable({kLoopback, kWired}, "127.0.0.1").size() == 1);

@@ -1,6 +1,4 @@
 // The live path: a recording's packets over UDP, and whatever else comes to that port.
-#include <arpa/inet.h>
-#include <netinet/in.h>
 #include <sys/socket.h>
 #include <unistd.h>
 #include <catch2/catch.hpp>
@@ -10,6 +8,7 @@
 #include "tests/ingest/ouster_builder.hpp"
 #include "tests/processes/observer.hpp"
 #include "tests/processes/recordings.hpp"
+#include "tests/support/local_address.hpp"
 #include "tests/tools/temporary_folder.hpp"
 
 using namespace gvom::test;
@@ -21,19 +20,12 @@ namespace {
 constexpr char kIngest[] = "gvom-ingest-front";
 constexpr int kSweeps = 20;
 
-sockaddr_in loopback(std::uint16_t port, std::uint32_t host = INADDR_LOOPBACK) {
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_port = htons(port);
-  address.sin_addr.s_addr = htonl(host);
-  return address;
-}
-
 /// Sends datagrams from 127.0.0.HOST.
 class Sender {
  public:
-  Sender(std::uint16_t port, std::uint8_t host) : fd_(::socket(AF_INET, SOCK_DGRAM, 0)), to_(loopback(port)) {
-    const sockaddr_in from = loopback(0, 0x7F000000u + host);
+  Sender(std::uint16_t port, std::uint8_t host)
+      : fd_(::socket(AF_INET, SOCK_DGRAM, 0)), to_(local_address(port)) {
+    const sockaddr_in from = local_address(0, 0x7F000000u + host);
     REQUIRE(::bind(fd_, reinterpret_cast<const sockaddr*>(&from), sizeof from) == 0);
   }
   ~Sender() { ::close(fd_); }

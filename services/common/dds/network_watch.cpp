@@ -46,12 +46,12 @@ InterfaceAddresses interface_addresses() {
   return found;
 }
 
-InterfaceAddresses usable(const InterfaceAddresses& all, const std::string& interface) {
+InterfaceAddresses usable(const InterfaceAddresses& all, const std::string& interface, bool or_loopback) {
   InterfaceAddresses found;
   std::copy_if(all.begin(), all.end(), std::back_inserter(found), [&](const InterfaceAddress& one) {
     return interface.empty() ? !one.loopback : one.name == interface || one.address == interface;
   });
-  return interface.empty() && found.empty() ? all : found;
+  return interface.empty() && found.empty() && or_loopback ? all : found;
 }
 
 bool is_loopback(const InterfaceAddresses& addresses) {
@@ -72,8 +72,8 @@ std::string loss_between(const std::string& interface, const InterfaceAddresses&
   return "the network that was joined is gone: " + names_of(lost);
 }
 
-NetworkWatch::NetworkWatch(std::string interface)
-    : interface_(std::move(interface)), before_(usable(interface_addresses(), interface_)) {}
+NetworkWatch::NetworkWatch(std::string interface, bool or_loopback)
+    : interface_(std::move(interface)), before_(usable(interface_addresses(), interface_, or_loopback)) {}
 
 std::string NetworkWatch::loss() {
   const std::lock_guard lock(mutex_);

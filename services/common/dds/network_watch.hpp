@@ -25,8 +25,9 @@ using InterfaceAddresses = std::vector<InterfaceAddress>;
 InterfaceAddresses interface_addresses();
 
 /// Those that a domain may use: of `interface`, a name or an address; without one all but the loopback's, or
-/// those where there is nothing else.
-InterfaceAddresses usable(const InterfaceAddresses& all, const std::string& interface);
+/// those where there is nothing else (`or_loopback`).
+InterfaceAddresses usable(const InterfaceAddresses& all, const std::string& interface,
+                          bool or_loopback = true);
 
 /// Whether there are some, all of the loopback.
 bool is_loopback(const InterfaceAddresses& addresses);
@@ -40,8 +41,8 @@ std::string loss_between(const std::string& interface, const InterfaceAddresses&
 /// For any thread.
 class NetworkWatch {
  public:
-  /// Remembers what `interface` is now.
-  explicit NetworkWatch(std::string interface);
+  /// Remembers what `interface` is now; `or_loopback` as of usable.
+  explicit NetworkWatch(std::string interface, bool or_loopback = true);
 
   /// As loss_between; looks at most once a second.
   [[nodiscard]] std::string loss();

@@ -135,7 +135,7 @@ tl::expected<void, std::string> Participant::join(const ParticipantOptions& opti
 }
 
 Participant::Participant(const ParticipantOptions& options)
-    : distro_(options.distro), network_(options.domain.interface) {}
+    : distro_(options.distro), network_(options.domain.interface, options.domain.config_file.empty()) {}
 
 Participant::~Participant() {
   graph_.reset();
