@@ -68,7 +68,7 @@ std::vector<VehicleRow> planner_rows() {
       {{"planner.roughness_weight", "", Rule::range, 0, 1000, kOptional, "likewise, at roughness_full_m2"},
        [](V& c) -> Field { return &c.planner.costmap.roughness_weight; }},
       {{"planner.soft_weight", "", Rule::range, 0, 1000, kOptional,
-        "likewise, where the vehicle touches a SOFT column"},
+        "likewise, over a SOFT column, falling to 0 where the vehicle's sides do not touch it"},
        [](V& c) -> Field { return &c.planner.costmap.soft_weight; }},
       {{"planner.unknown_cost", "", Rule::range, 0, 1000, kOptional, "likewise, where no ground is known"},
        [](V& c) -> Field { return &c.planner.costmap.unknown_cost; }},

@@ -38,7 +38,7 @@ struct VehicleLimits {
 struct CostmapConfig {
   double slope_weight = 4.0;        ///< At `slope_full_rad`, 0 .. 1000.
   double roughness_weight = 6.0;    ///< At `roughness_full_m2`, 0 .. 1000.
-  double soft_weight = 8.0;         ///< Where the vehicle touches a SOFT column, 0 .. 1000.
+  double soft_weight = 16.0;        ///< Over a SOFT column, falling to 0 at the sides of it, 0 .. 1000.
   double unknown_cost = 0.5;        ///< Added where no ground is known, 0 .. 1000; speed is bounded by sight.
   double remembered_cost = 1.0;     ///< Added where ground is remembered (R17), 0 .. 1000.
   double slope_full_rad = 0.4;      ///< 0.01 .. 1.5.

@@ -143,10 +143,10 @@ void Costmap::weigh(const MapView& map) {
     float* const cost = cost_.data() + row;
     float* const smooth = smooth_.data() + row;
     for (int x = 0; x < n; ++x) {
-      const bool soft = (from_soft[x] < reach_m) | marked[x];  // what is marked and lethal has no use for it
+      const float over = marked[x] ? 1 : 1 - from_soft[x] / reach_m;  // marked and lethal: has no use for it
       float sum = 1 + slope_weight * share(map.slope[row + x], slope_full) +
                   roughness_weight * share(map.roughness[row + x], roughness_full);
-      sum += soft ? soft_weight : 0;
+      sum += soft_weight * (over > 0 ? over : 0);
       sum += known[x] ? 0 : unknown_cost;
       sum += is_remembered(visibility[x]) ? remembered_cost : 0;
       const float off = 1 - (distance[x] - reach_m) / near_m;

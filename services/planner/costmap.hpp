@@ -20,9 +20,9 @@ struct CostSample {
   Eigen::Vector2d gradient{0, 0};  ///< Per metre.
 };
 
-/// The weighted sum of the layers (the paper's section on tests), grown around what is lethal and around what
-/// is SOFT: its sides meet a bush, too, and a rock little higher than its clearance is as often SOFT as HARD.
-/// Made anew for each map, without allocating.
+/// The weighted sum of the layers (the paper's section on tests), grown around what is lethal and, falling
+/// off to the sides, around what is SOFT: they meet a bush, too, and a rock little higher than the clearance
+/// is as often SOFT as HARD. Made anew for each map, without allocating.
 class Costmap {
  public:
   /// @param n_xy the largest map, columns along an edge

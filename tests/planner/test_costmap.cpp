@@ -46,16 +46,19 @@ TEST_CASE("Layers add to the cost of a metre by their weights") {
   }
 }
 
-TEST_CASE("A bush costs wherever the vehicle touches it, not only where base_link passes") {
+TEST_CASE("What is soft costs most below the middle, and nothing where the sides do not touch it") {
   FlatMap map(kEdge);
   map.flag(20, 20, 20, 20, kSoft);
   const Costmap costmap = costmap_of(map);
-  CHECK(cost_at(costmap, 20, 20) == 9);
-  CHECK(cost_at(costmap, 22, 20) == 9);  // 0.8 m off: half the width and the margin are 0.9 m
-  CHECK(cost_at(costmap, 20, 18) == 9);
+  CHECK(costmap.lethal()[map.at(20, 20)] == 0);
+  CHECK(cost_at(costmap, 20, 20) == 17);
+  CHECK(cost_at(costmap, 21, 20) == Approx(1 + 16 * 5.0 / 9));  // 0.4 m off, of 0.9 m
+  CHECK(cost_at(costmap, 22, 20) == Approx(1 + 16 * 1.0 / 9));
+  CHECK(cost_at(costmap, 20, 18) == Approx(1 + 16 * 1.0 / 9));
   CHECK(cost_at(costmap, 23, 20) == 1);  // 1.2 m
   CHECK(cost_at(costmap, 22, 22) == 1);  // 1.13 m
-  CHECK(costmap.lethal()[map.at(20, 20)] == 0);
+  map.flag(22, 20, 22, 20, kSoft);
+  CHECK(cost_at(costmap_of(map), 21, 20) == Approx(1 + 16 * 5.0 / 9));  // two cost no more than one
 }
 
 TEST_CASE("Beside a trunk the cost falls from lethal to that of the ground") {
@@ -82,7 +85,7 @@ TEST_CASE("A single steep or negative column is noise, two or a single hard one 
     map.flag(0, 0, 0, 0, bit);
     const Costmap costmap = costmap_of(map);
     CHECK(costmap.lethal()[map.at(5, 5)] == 0);
-    CHECK(cost_at(costmap, 5, 5) == 9);  // as soft ground
+    CHECK(cost_at(costmap, 5, 5) == 17);  // as soft ground
     CHECK(costmap.lethal()[map.at(0, 0)] == 0);
     CHECK(costmap.lethal()[map.at(20, 20)] == 1);
     CHECK(costmap.lethal()[map.at(21, 21)] == 1);
