@@ -10,7 +10,12 @@ namespace {
 
 constexpr std::uint8_t kStands = kHard | kSoft;
 constexpr double kStraight = 0.7;  // the cosine between a way and the one before
+constexpr double kWide_m = 0.8;    // a person
 constexpr double kAlone_m = 1.2;
+
+double seconds_of(std::int64_t ns) {
+  return 1e-9 * static_cast<double>(ns);
+}
 
 /// Whether a column is so in the square that reaches this far from the column to each side.
 template <class IsSo>
@@ -34,7 +39,7 @@ Movers::Movers(const VehicleLimits& vehicle, int n_xy) : vehicle_(vehicle) {
   flags_.resize(count);
   found_.reserve(kMost);
   tracks_.reserve(kMost);
-  discs_.reserve(kMost * (static_cast<std::size_t>(kAhead_m / kAround_m) + 1));
+  discs_.reserve(kMost * (static_cast<std::size_t>(kAhead_m / kAround_m) + 2));
 }
 
 void Movers::clear() {
@@ -47,7 +52,7 @@ void Movers::observe(const MapView& map, const Eigen::Vector2d& vehicle_m, doubl
   found_.clear();
   if (const Past* past = past_of(map.stamp_ns)) find(map, *past, vehicle_m);
   follow(map);
-  reach(vehicle_m, speed_mps);
+  close_ahead(map.stamp_ns, vehicle_m, speed_mps);
   remember(map);
 }
 
@@ -90,6 +95,22 @@ bool Movers::is_alone(const MapView& map, const Eigen::Vector2d& place_m) {
   return standing * cells.cell_m * cells.cell_m <= kLargest_m2;
 }
 
+std::optional<Eigen::Vector2d> Movers::alone_at(const MapView& map, const Eigen::Vector2d& place_m) {
+  const Cells cells = map.cells();
+  const auto stands = [&](int cell) { return (map.flags[cell] & kStands) != 0; };
+  int standing = 0;
+  Eigen::Vector2d middle_m(0, 0);
+  DiscRows(cells, place_m, kWide_m).for_each([&](int cell) {
+    if (stands(cell)) middle_m += (cells.center_of(cell) - middle_m) / ++standing;
+  });
+  const double edge_m = kWide_m / 2 + cells.cell_m;
+  bool alone = standing > 0;
+  DiscRows(cells, middle_m, kAlone_m).for_each([&](int cell) {
+    if (stands(cell) && (cells.center_of(cell) - middle_m).norm() > edge_m) alone = false;
+  });
+  return alone ? std::optional(middle_m) : std::nullopt;
+}
+
 void Movers::find(const MapView& map, const Past& past, const Eigen::Vector2d& vehicle_m) {
   const Cells cells = map.cells();
   DiscRows(cells, vehicle_m, kSight_m).for_each([&](int cell) {
@@ -114,32 +135,47 @@ void Movers::follow(const MapView& map) {
   const double cell_m = map.cells().cell_m;
   for (const Found& found : found_) {
     if (found.columns * cell_m * cell_m > kLargest_m2) continue;
-    const auto is_it = [&](const Track& track) {
-      return (track.middle_m - found.middle_m).norm() <= kApart_m;
-    };
-    const auto track = std::find_if(tracks_.begin(), tracks_.end(), is_it);
-    if (track != tracks_.end())
-      go_on(map, found.middle_m, *track);
+    const auto alone_m = alone_at(map, found.middle_m);
+    const Eigen::Vector2d middle_m = alone_m.value_or(found.middle_m);
+    if (Track* const track = track_of(middle_m, stamp_ns))
+      go_on(map, middle_m, alone_m || is_alone(map, middle_m), *track);
     else if (tracks_.size() < kMost)
-      tracks_.push_back({found.middle_m, stamp_ns, found.middle_m, stamp_ns, {0, 0}, 0, false});
+      tracks_.push_back({middle_m, stamp_ns, middle_m, stamp_ns, {0, 0}, 0, false});
   }
-  for (Track& track : tracks_) track.moves = track.moves && stamp_ns - track.moved_ns <= kHold_ns;
+  for (Track& track : tracks_) {
+    track.moves = track.moves && stamp_ns - track.moved_ns <= kHold_ns;
+    if (!track.moves || track.seen_ns == stamp_ns) continue;
+    if (const auto alone_m = alone_at(map, track.middle_m)) go_on(map, *alone_m, true, track);
+  }
   const auto is_over = [&](const Track& track) { return stamp_ns - track.seen_ns > kHold_ns; };
   tracks_.erase(std::remove_if(tracks_.begin(), tracks_.end(), is_over), tracks_.end());
 }
 
-void Movers::go_on(const MapView& map, const Eigen::Vector2d& middle_m, Track& track) {
+Movers::Track* Movers::track_of(const Eigen::Vector2d& middle_m, std::int64_t stamp_ns) {
+  Track* nearest = nullptr;
+  double least_m = kApart_m;
+  for (Track& track : tracks_) {
+    const double walked_m = track.moves ? kWalks_mps * seconds_of(stamp_ns - track.seen_ns) : 0;
+    const double away_m = (track.middle_m - middle_m).norm() - walked_m;
+    if (away_m > least_m) continue;
+    nearest = &track;
+    least_m = away_m;
+  }
+  return nearest;
+}
+
+void Movers::go_on(const MapView& map, const Eigen::Vector2d& middle_m, bool alone, Track& track) {
   track.middle_m = middle_m;
   track.seen_ns = map.stamp_ns;
   const Eigen::Vector2d way_m = middle_m - track.from_m;
-  const double seconds = 1e-9 * static_cast<double>(map.stamp_ns - track.from_ns);
+  const double seconds = seconds_of(map.stamp_ns - track.from_ns);
   const int from = map.cells().index_of(track.from_m.x(), track.from_m.y());
   const bool left = from >= 0 && (map.flags[from] & kStands) == 0;
   const bool moved = way_m.norm() >= kMoved_m && way_m.norm() <= kRuns_mps * seconds && left;
   if (moved) {
     const bool goes_on = track.direction.dot(way_m.normalized()) >= kStraight;
     track.direction = way_m.normalized();
-    if (goes_on || is_alone(map, middle_m)) {
+    if (goes_on || alone) {
       track.moved_ns = map.stamp_ns;
       track.moves = true;
     }
@@ -149,18 +185,39 @@ void Movers::go_on(const MapView& map, const Eigen::Vector2d& middle_m, Track& t
   track.from_ns = map.stamp_ns;
 }
 
-void Movers::reach(const Eigen::Vector2d& vehicle_m, double speed_mps) {
+void Movers::close_ahead(std::int64_t stamp_ns, const Eigen::Vector2d& vehicle_m, double speed_mps) {
   discs_.clear();
   const double fast_mps = std::abs(speed_mps);
-  const double stands_s = vehicle_.latency_s + fast_mps / vehicle_.max_decel_mps2;
+  const double stands_s = std::max(vehicle_.latency_s + fast_mps / vehicle_.max_decel_mps2, kLeast_s);
   for (const Track& track : tracks_) {
     if (!track.moves) continue;
     const double away_m = (track.middle_m - vehicle_m).norm();
     const double seconds = std::min(away_m / std::max(fast_mps, 1e-3), stands_s);
+    if (stamp_ns - track.moved_ns > kTurns_ns) {
+      const double since_s = seconds_of(stamp_ns - track.seen_ns);
+      discs_.push_back({track.middle_m, kAround_m + std::min(kWalks_mps * (since_s + seconds), kAhead_m)});
+      continue;
+    }
     const double most_m = std::min(kWalks_mps * seconds, kAhead_m);
-    for (double ahead_m = 0; ahead_m <= most_m; ahead_m += kAround_m)
-      discs_.push_back({track.middle_m + ahead_m * track.direction, kAround_m + kWidens * ahead_m});
+    for (double ahead_m = 0; ahead_m < most_m; ahead_m += kAround_m)
+      discs_.push_back(ahead_of(track, ahead_m));
+    discs_.push_back(ahead_of(track, most_m));
   }
+}
+
+Movers::Disc Movers::ahead_of(const Track& track, double ahead_m) {
+  return {track.middle_m + ahead_m * track.direction, kAround_m + kWidens * ahead_m};
+}
+
+bool Movers::reach(const Pose2& pose) const {
+  return std::any_of(discs_.begin(), discs_.end(), [&](const Disc& disc) {
+    const Eigen::Vector2d off_m = disc.middle_m - pose.place(), forward = pose.forward();
+    const double ahead_m = off_m.dot(forward);
+    const double aside_m = std::abs(off_m.y() * forward.x() - off_m.x() * forward.y());
+    if (ahead_m < -vehicle_.rear_m) return false;
+    const double to_side_m = std::max(aside_m - vehicle_.width_m / 2, 0.0);
+    return std::hypot(std::max(ahead_m - vehicle_.front_m, 0.0), to_side_m) < disc.radius_m;
+  });
 }
 
 MapView Movers::close(const MapView& map) {

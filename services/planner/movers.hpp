@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "services/common/planner_config.hpp"
@@ -15,14 +16,17 @@ namespace gvom::planner {
 /// be of something that moves: who walks fills a voxel for so short a time that he is mostly SOFT. So may be
 /// one of a thing that shows itself late, or by turns, or piece by piece: that stays. Only where such columns
 /// get on by `kMoved_m` within `kGoing_ns`, no faster than `kRuns_mps`, and leave where they were, something
-/// moves; beside other things, where it does so twice, straight on. It is believed to for `kHold_ns`: who
-/// turns around walks where he just came from. The room that it can reach until the vehicle is there, or
-/// stands, is closed (HARD), so the vehicle goes behind, slows down or waits.
+/// moves; beside other things, where it does so twice, straight on. It is believed to for `kHold_ns`. The
+/// room that it can reach until the vehicle is there, or stands, is closed (HARD), so the vehicle goes
+/// behind, slows down or waits: ahead of it while it gets on, all around it when it has not for `kTurns_ns`.
+/// Who turns around walks where he just came from, and that was not open `kBack_ns` ago: with nothing else
+/// near, whatever stands there is followed.
 class Movers {
  public:
   static constexpr std::int64_t kBack_ns = 600'000'000;
   static constexpr std::int64_t kGoing_ns = 1'000'000'000;
   static constexpr std::int64_t kHold_ns = 1'200'000'000;
+  static constexpr std::int64_t kTurns_ns = 500'000'000;  ///< Since it got on; then it may turn.
   static constexpr double kMoved_m = 0.5;
   static constexpr double kRuns_mps = 3;
   static constexpr double kEdge_m = 0.4;  ///< So far the edge of what stands may flicker.
@@ -33,6 +37,7 @@ class Movers {
   static constexpr double kAround_m = 1;  ///< Closed around a mover,
   static constexpr double kWidens = 0.3;  ///< and so much more for each metre that it may get on,
   static constexpr double kAhead_m = 3;   ///< at most so far.
+  static constexpr double kLeast_s = 1;   ///< What sets off beside someone needs that.
 
   struct Disc {
     Eigen::Vector2d middle_m = Eigen::Vector2d::Zero();
@@ -47,8 +52,10 @@ class Movers {
   /// Each cycle with a map, nothing closed in it. @param speed_mps of the vehicle
   void observe(const MapView& map, const Eigen::Vector2d& vehicle_m, double speed_mps);
   [[nodiscard]] bool empty() const { return discs_.empty(); }
-  /// Where each mover is, and ahead of it what it can reach.
+  /// Where each mover is, and what it can reach.
   [[nodiscard]] const std::vector<Disc>& discs() const { return discs_; }
+  /// Whether one of them touches the vehicle, other than from behind.
+  [[nodiscard]] bool reach(const Pose2& pose) const;
   /// The map with flags that hold these. Borrows the map's arrays, and is valid until the next call.
   MapView close(const MapView& map);
 
@@ -85,13 +92,19 @@ class Movers {
   [[nodiscard]] const Past* past_of(std::int64_t stamp_ns) const;
   [[nodiscard]] static bool is_by_hole(const MapView& map, int index);
   [[nodiscard]] static bool was_open(const Past& past, const Eigen::Vector2d& place_m);
-  /// Nothing else stands around it.
+  /// Little else stands around it.
   [[nodiscard]] static bool is_alone(const MapView& map, const Eigen::Vector2d& place_m);
+  /// The middle of what stands there with nothing else around it; nothing: there is no such thing.
+  [[nodiscard]] static std::optional<Eigen::Vector2d> alone_at(const MapView& map,
+                                                               const Eigen::Vector2d& place_m);
   void find(const MapView& map, const Past& past, const Eigen::Vector2d& vehicle_m);
   void add(const Eigen::Vector2d& place_m);
   void follow(const MapView& map);
-  static void go_on(const MapView& map, const Eigen::Vector2d& middle_m, Track& track);
-  void reach(const Eigen::Vector2d& vehicle_m, double speed_mps);
+  /// Whose these columns are: the nearest of those that can have come there; nullptr: of none.
+  [[nodiscard]] Track* track_of(const Eigen::Vector2d& middle_m, std::int64_t stamp_ns);
+  static void go_on(const MapView& map, const Eigen::Vector2d& middle_m, bool alone, Track& track);
+  [[nodiscard]] static Disc ahead_of(const Track& track, double ahead_m);
+  void close_ahead(std::int64_t stamp_ns, const Eigen::Vector2d& vehicle_m, double speed_mps);
 
   VehicleLimits vehicle_;
   std::array<Past, kPasts> pasts_;

@@ -10,7 +10,8 @@ namespace gvom::planner {
 namespace {
 
 constexpr double kStands_mps = 0.1;
-constexpr int kStandCycles = 3;  // what a jump of the odometry says of the speed is nothing at first
+constexpr double kWaits_mps = 2.5;  // slower than that it lets pass who is beside it
+constexpr int kStandCycles = 3;     // what a jump of the odometry says of the speed is nothing at first
 
 }  // namespace
 
@@ -146,6 +147,7 @@ void Planner::Impl::drive(const MapView& seen, const Senses& senses) {
     stop(Reason::blind_side);
     return say(plan_.why, "stops: no lidar that looks ahead has a map in the window");
   }
+  if (std::abs(now_.speed_mps) < kWaits_mps && movers_.reach(now_.pose)) return brake_for_movers(map, at);
   if (!find_way(map, at)) return;
   if (now_.speed_mps < -kStands_mps) {
     stop(Reason::dead_end);

@@ -79,17 +79,24 @@ TEST_CASE("what walks is closed as far as it gets until the vehicle is there or 
     sight.look_at(35, 25, flag);
     sight.look_at(35, 25, flag);
     const Vector2d middle_m(35.5 * 0.4, 10.2);
-    REQUIRE(sight.movers.discs().size() == 1);  // standing: 0.3 s of latency, 0.42 m
+    REQUIRE(sight.movers.discs().size() == 3);  // standing: a second, 1.4 m
     CHECK(sight.movers.discs()[0].middle_m.isApprox(middle_m));
     CHECK(sight.movers.discs()[0].radius_m == 1);
-    // 4.2 m away. At 4 m/s the vehicle is there in 1.05 s, and at a stand in 0.3 + 4 / 2.5 = 1.9 s: 1.5 m.
+    CHECK(sight.movers.discs()[2].middle_m.isApprox(Vector2d(middle_m + Vector2d(1.4, 0))));
+    CHECK(sight.movers.discs()[2].radius_m == Approx(1.42));
+    // 4.2 m away. At 4 m/s the vehicle is there in 1.05 s, and at a stand in 0.3 + 4 / 2.5 = 1.9 s: 1.47 m.
     sight.look(4);
-    REQUIRE(sight.movers.discs().size() == 2);
-    CHECK(sight.movers.discs()[1].middle_m.isApprox(Vector2d(middle_m + Vector2d(1, 0))));
-    CHECK(sight.movers.discs()[1].radius_m == Approx(1.3));
-    // Gone from the map, it is believed to be there for 1.2 s after it got on.
+    REQUIRE(sight.movers.discs().size() == 3);
+    CHECK(sight.movers.discs()[2].middle_m.x() ==
+          Approx(middle_m.x() + 1.4 * (middle_m - Vector2d(10, 10)).norm() / 4));
+    // Gone from the map, it is believed to be there for 1.2 s after it got on, from half a second on anywhere
+    // around.
     map.flags.assign(map.flags.size(), 0);
-    for (int turn = 0; turn < 10; ++turn) sight.look();
+    for (int turn = 0; turn < 5; ++turn) sight.look();
+    REQUIRE(sight.movers.discs().size() == 1);
+    CHECK(sight.movers.discs()[0].middle_m.isApprox(middle_m));
+    CHECK(sight.movers.discs()[0].radius_m == Approx(1 + 1.4 * (1 + 0.5)));
+    for (int turn = 0; turn < 5; ++turn) sight.look();
     CHECK(sight.movers.discs().size() == 1);
     for (int turn = 0; turn < 3; ++turn) sight.look();
     CHECK(sight.movers.empty());
@@ -164,30 +171,55 @@ TEST_CASE("the rim of a hole that shows itself piece by piece does not move, nor
   }
 }
 
+/// Drives from x = 5 to 45 m, and hits nobody while it is faster than `stands_mps`. Where the walker is, by
+/// the time. Nobody in its way, the vehicle is at x = 25 m after 3 s * 2.25 m/s and (20 - 6.75) m / 4.5 m/s:
+/// `kThere_s`.
+constexpr double kThere_s = 5.9;
+
+template <class Place>
+void meets(std::uint8_t flag, double stands_mps, Place place_m) {
+  SmallMap map(128);
+  Walker walker(map, flag);
+  Loop loop({}, map, {5, 25, 0});
+  loop.planner.set_course({{45, 25}});
+  double time_s = 0, nearest_m = 1e9;
+  const auto step = [&] {
+    walker.stand_at(place_m(time_s));
+    time_s += 0.1;
+  };
+  step();
+  const bool arrives = loop.until(Mode::arrived, 30, [&](const Plan&) {
+    step();
+    if (loop.vehicle.speed_mps() > stands_mps) nearest_m = std::min(nearest_m, walker.away_m(loop.vehicle));
+  });
+  CAPTURE(int{flag}, nearest_m, time_s, loop.vehicle.pose().x_m);
+  CHECK(arrives);
+  CHECK(nearest_m > 0.1);
+  CHECK(time_s < 22);
+}
+
 TEST_CASE("the vehicle does not hit who crosses its way, and drives on when he is by") {
   for (const std::uint8_t flag : {kHard, kSoft})
     for (const double walks_mps : {1.0, 1.4, 1.8})
       for (double early_s = -2.5; early_s <= 2.5; early_s += 0.5) {
-        SmallMap map(128);
-        Walker walker(map, flag);
-        Loop loop({}, map, {5, 25, 0});
-        loop.planner.set_course({{45, 25}});
-        // Nobody in its way, it is at x = 25 m after 3 s * 2.25 m/s and (20 - 6.75) m / 4.5 m/s: 5.9 s.
-        double time_s = 0, nearest_m = 1e9;
-        const auto step = [&] {
-          walker.stand_at({25, 25 + walks_mps * (time_s + early_s - 5.9)});
-          time_s += 0.1;
-        };
-        step();
-        const bool arrives = loop.until(Mode::arrived, 30, [&](const Plan&) {
-          step();
-          if (loop.vehicle.speed_mps() > 0.05) nearest_m = std::min(nearest_m, walker.away_m(loop.vehicle));
-        });
-        CAPTURE(int{flag}, walks_mps, early_s, nearest_m, time_s, loop.vehicle.pose().x_m);
-        CHECK(arrives);
-        CHECK(nearest_m > 0.1);
-        CHECK(time_s < 20);
+        CAPTURE(walks_mps, early_s);
+        meets(flag, 0.05,
+              [&](double time_s) { return Vector2d(25, 25 + walks_mps * (time_s + early_s - kThere_s)); });
       }
+}
+
+// Who turns 4 m before it and is not told at once walks into it while it brakes, slower than he walks.
+TEST_CASE("nor who has crossed it, turns around and crosses it again") {
+  for (const std::uint8_t flag : {kHard, kSoft})
+    for (const double walks_mps : {1.0, 1.4})
+      for (const double beyond_m : {2.0, 2.5, 3.0, 4.0})
+        for (double early_s = -1; early_s <= 1; early_s += 0.5) {
+          CAPTURE(walks_mps, beyond_m, early_s);
+          const double turns_s = kThere_s - early_s - beyond_m / walks_mps;
+          meets(flag, walks_mps, [&](double time_s) {
+            return Vector2d(25, 25 + beyond_m - walks_mps * std::abs(time_s - turns_s));
+          });
+        }
 }
 
 }  // namespace
