@@ -10,8 +10,10 @@ namespace {
 
 constexpr std::uint8_t kStands = kHard | kSoft;
 constexpr double kStraight = 0.7;  // the cosine between a way and the one before
+constexpr int kSure = 2;           // so often straight on
 constexpr double kWide_m = 0.8;    // a person
 constexpr double kAlone_m = 1.2;
+constexpr double kSmallest_m2 = 0.1;  // less is a blade of grass
 
 double seconds_of(std::int64_t ns) {
   return 1e-9 * static_cast<double>(ns);
@@ -104,7 +106,7 @@ std::optional<Eigen::Vector2d> Movers::alone_at(const MapView& map, const Eigen:
     if (stands(cell)) middle_m += (cells.center_of(cell) - middle_m) / ++standing;
   });
   const double edge_m = kWide_m / 2 + cells.cell_m;
-  bool alone = standing > 0;
+  bool alone = standing * cells.cell_m * cells.cell_m >= kSmallest_m2;
   DiscRows(cells, middle_m, kAlone_m).for_each([&](int cell) {
     if (stands(cell) && (cells.center_of(cell) - middle_m).norm() > edge_m) alone = false;
   });
@@ -138,9 +140,9 @@ void Movers::follow(const MapView& map) {
     const auto alone_m = alone_at(map, found.middle_m);
     const Eigen::Vector2d middle_m = alone_m.value_or(found.middle_m);
     if (Track* const track = track_of(middle_m, stamp_ns))
-      go_on(map, middle_m, alone_m || is_alone(map, middle_m), *track);
+      go_on(map, middle_m, alone_m.has_value(), *track);
     else if (tracks_.size() < kMost)
-      tracks_.push_back({middle_m, stamp_ns, middle_m, stamp_ns, {0, 0}, 0, false});
+      tracks_.push_back({middle_m, stamp_ns, middle_m, stamp_ns, {0, 0}, 0, 0, false, false});
   }
   for (Track& track : tracks_) {
     track.moves = track.moves && stamp_ns - track.moved_ns <= kHold_ns;
@@ -175,7 +177,9 @@ void Movers::go_on(const MapView& map, const Eigen::Vector2d& middle_m, bool alo
   if (moved) {
     const bool goes_on = track.direction.dot(way_m.normalized()) >= kStraight;
     track.direction = way_m.normalized();
-    if (goes_on || alone) {
+    track.straight = goes_on ? track.straight + 1 : 0;
+    track.sure = track.sure || alone || track.straight >= kSure;
+    if (goes_on || alone || is_alone(map, middle_m)) {
       track.moved_ns = map.stamp_ns;
       track.moves = true;
     }
@@ -193,9 +197,9 @@ void Movers::close_ahead(std::int64_t stamp_ns, const Eigen::Vector2d& vehicle_m
     if (!track.moves) continue;
     const double away_m = (track.middle_m - vehicle_m).norm();
     const double seconds = std::min(away_m / std::max(fast_mps, 1e-3), stands_s);
-    if (stamp_ns - track.moved_ns > kTurns_ns) {
-      const double since_s = seconds_of(stamp_ns - track.seen_ns);
-      discs_.push_back({track.middle_m, kAround_m + std::min(kWalks_mps * (since_s + seconds), kAhead_m)});
+    if (track.sure && stamp_ns - track.moved_ns > kTurns_ns) {
+      const double far_m = kWalks_mps * (seconds + seconds_of(stamp_ns - track.seen_ns));
+      discs_.push_back({track.middle_m, kAround_m + std::min(far_m, kAhead_m), true});
       continue;
     }
     const double most_m = std::min(kWalks_mps * seconds, kAhead_m);
@@ -206,11 +210,12 @@ void Movers::close_ahead(std::int64_t stamp_ns, const Eigen::Vector2d& vehicle_m
 }
 
 Movers::Disc Movers::ahead_of(const Track& track, double ahead_m) {
-  return {track.middle_m + ahead_m * track.direction, kAround_m + kWidens * ahead_m};
+  return {track.middle_m + ahead_m * track.direction, kAround_m + kWidens * ahead_m, track.sure};
 }
 
 bool Movers::reach(const Pose2& pose) const {
   return std::any_of(discs_.begin(), discs_.end(), [&](const Disc& disc) {
+    if (!disc.sure) return false;
     const Eigen::Vector2d off_m = disc.middle_m - pose.place(), forward = pose.forward();
     const double ahead_m = off_m.dot(forward);
     const double aside_m = std::abs(off_m.y() * forward.x() - off_m.x() * forward.y());

@@ -42,6 +42,7 @@ class Movers {
   struct Disc {
     Eigen::Vector2d middle_m = Eigen::Vector2d::Zero();
     double radius_m = 0;
+    bool sure = false;  ///< That something moves there.
   };
 
   /// @param n_xy the largest map, columns along an edge
@@ -84,7 +85,9 @@ class Movers {
     std::int64_t from_ns = 0;                          ///< then; how far it gets from there is measured.
     Eigen::Vector2d direction = Eigen::Vector2d::Zero();
     std::int64_t moved_ns = 0;  ///< When it last had got on by `kMoved_m`.
+    int straight = 0;           ///< How often it last got on in the direction before.
     bool moves = false;
+    bool sure = false;
   };
 
   void remember(const MapView& map);

@@ -33,14 +33,14 @@ struct Driven {
   int grass = 0;
 };
 
-/// Straight on at `speed_mps` until something happens.
-inline Driven drive_on(const sim::World& world, const planner::Pose2& start, double speed_mps,
-                       double seconds) {
+/// Straight on at `speed_mps`, after a stand, until something happens.
+inline Driven drive_on(const sim::World& world, const planner::Pose2& start, double speed_mps, double seconds,
+                       double sets_off_s = 0) {
   driving::Vehicle vehicle(world.terrain(), small_vehicle(), start);
   driving::Watch watch(world, vehicle.model());
   Driven driven;
   while (!driven.mishap && vehicle.time_s() < seconds) {
-    vehicle.command(vehicle.time_s(), {speed_mps, 0});
+    vehicle.command(vehicle.time_s(), {vehicle.time_s() < sets_off_s ? 0 : speed_mps, 0});
     vehicle.step();
     driven.mishap = watch.look(vehicle);
   }

@@ -135,6 +135,15 @@ TEST_CASE("it hits a walker; a walker who walks into it while it stands is no ac
   CHECK_FALSE(drive_on(world, {}, 0, 10).mishap);
 }
 
+TEST_CASE("who has walked into it at a stand is hit only when he was out of it since") {
+  sim::WorldData data = level_world();
+  add(data, sim::Kind::walker, post(0, 0, 0.25, 1.8));
+  data.objects.back().track = {{0, 10, 0}, {5, 0, 0}};
+  CHECK_FALSE(drive_on(sim::World(data), {}, kSpeed_mps, 8, 6).mishap);
+  data.objects.back().track = {{0, 10, 0}, {5, 0, 0}, {6, 6, 0}};
+  check(drive_on(sim::World(data), {}, kSpeed_mps, 12, 6), Accident::hit, 6 - 0.25 - 0.8, kStep_m + 0.02);
+}
+
 TEST_CASE("a mishap says what, against what, where, when and how fast") {
   const Mishap mishap{Accident::hit, 8.1, {12.34, -4.5, 0.3}, 3.2, 17, sim::ObjectClass::rock};
   CHECK(describe(mishap) == "hit rock 17 at (12.3, -4.5) m after 8.1 s, at 3.2 m/s");

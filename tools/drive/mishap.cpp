@@ -121,10 +121,16 @@ std::optional<Mishap> Watch::look_at_things(const Vehicle& vehicle) {
     if (body.is_solid()) return hit(body);
     count(body);
   }
-  if (std::abs(vehicle.state().speed_mps) < kAtAStand_mps) return {};
-  for (const sim::Primitive& body : world_.walkers_at(vehicle.time_s()))
-    if (box.meets(body)) return hit(body);
-  return {};
+  const bool stands = std::abs(vehicle.state().speed_mps) < kAtAStand_mps;
+  std::optional<Mishap> mishap;
+  const auto walkers = world_.walkers_at(vehicle.time_s());
+  walked_in_.resize(walkers.size());
+  for (std::size_t i = 0; i < walkers.size(); ++i) {
+    const bool meets = box.meets(walkers[i]);
+    if (meets && !stands && walked_in_[i] == 0) mishap = hit(walkers[i]);
+    walked_in_[i] = meets && (stands || walked_in_[i] != 0) ? 1 : 0;
+  }
+  return mishap;
 }
 
 }  // namespace gvom::driving

@@ -35,7 +35,8 @@ class Watch {
   Watch(const sim::World& world, const VehicleModel& model);
 
   /// To be asked after each step of the vehicle. Solid things end its drive when its box meets them, from the
-  /// ground clearance up to its height; a walker who walks into a vehicle at a stand does not.
+  /// ground clearance up to its height. A walker who walks into a vehicle at a stand does not, nor while he
+  /// walks on through it: he minds no vehicle, and one who did would have stopped.
   std::optional<Mishap> look(const Vehicle& vehicle);
 
   [[nodiscard]] int bushes_driven_through() const { return bushes_; }
@@ -50,6 +51,7 @@ class Watch {
   VehicleModel model_;
   std::array<std::optional<double>, kWheels> firm_m_;  // that each wheel last stood on
   std::vector<std::uint8_t> is_counted_;               // by object
+  std::vector<std::uint8_t> walked_in_;                // by body of a walker: into the vehicle at a stand
   std::vector<int> near_;                              // bodies, of one look
   int bushes_ = 0;
   int grass_ = 0;
