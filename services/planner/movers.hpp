@@ -18,9 +18,10 @@ namespace gvom::planner {
 /// get on by `kMoved_m` within `kGoing_ns`, no faster than `kRuns_mps`, and leave where they were, something
 /// moves; beside other things, where it does so twice, straight on. It is believed to for `kHold_ns`. The
 /// room that it can reach until the vehicle is there, or stands, is closed (HARD), so the vehicle goes
-/// behind, slows down or waits: ahead of it while it gets on, all around it when it has not for `kTurns_ns`.
-/// Who turns around walks where he just came from, and that was not open `kBack_ns` ago: with nothing else
-/// near, whatever stands there is followed.
+/// behind, slows down or waits. Who turns around walks where he just came from, and that was not open
+/// `kBack_ns` ago: with nothing else near, whatever stands there is followed. Grass that flickers gets on,
+/// too, each time another way. What is sure to move, since it got on three times straight on or stands alone
+/// and is as large as a person, may turn: when it has not got on for `kTurns_ns`, all around it is closed.
 class Movers {
  public:
   static constexpr std::int64_t kBack_ns = 600'000'000;
@@ -42,7 +43,7 @@ class Movers {
   struct Disc {
     Eigen::Vector2d middle_m = Eigen::Vector2d::Zero();
     double radius_m = 0;
-    bool sure = false;  ///< That something moves there.
+    bool sure = false;  ///< It is sure to move.
   };
 
   /// @param n_xy the largest map, columns along an edge
@@ -55,7 +56,7 @@ class Movers {
   [[nodiscard]] bool empty() const { return discs_.empty(); }
   /// Where each mover is, and what it can reach.
   [[nodiscard]] const std::vector<Disc>& discs() const { return discs_; }
-  /// Whether one of them touches the vehicle, other than from behind.
+  /// Whether one that is sure to move can reach the vehicle, other than from behind.
   [[nodiscard]] bool reach(const Pose2& pose) const;
   /// The map with flags that hold these. Borrows the map's arrays, and is valid until the next call.
   MapView close(const MapView& map);
