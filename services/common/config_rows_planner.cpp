@@ -109,6 +109,9 @@ std::vector<VehicleRow> planner_rows() {
        [](V& c) -> Field { return &c.planner.give_up_s; }},
       {{"planner.back_out_m", "m", Rule::range, 0, 50, kOptional, "the farthest that it backs at a time"},
        [](V& c) -> Field { return &c.planner.back_out_m; }},
+      {{"planner.blind_m", "m", Rule::range, 0, 20, kOptional,
+        "nearer to base_link its lidars may see no ground: what was a hole or SOFT there is that still"},
+       [](V& c) -> Field { return &c.planner.blind_m; }},
   };
 }
 

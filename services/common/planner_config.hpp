@@ -60,6 +60,7 @@ struct PlannerConfig {
   double rate_hz = 10.0;          ///< Of planning cycles, 1 .. 100.
   double give_up_s = 60.0;        ///< Without coming nearer to the goal, 1 .. 3600.
   double back_out_m = 6.0;        ///< The farthest that it backs at a time, 0 .. 50.
+  double blind_m = 3.0;           ///< Nearer to base_link its lidars may see no ground, 0 .. 20.
 };
 
 }  // namespace gvom::planner

@@ -15,19 +15,20 @@ bool is_seen(std::uint8_t visibility) {
 
 }  // namespace
 
-KeptPlaces::KeptPlaces(int n_xy) : lethal_(n_xy), flags_(static_cast<std::size_t>(n_xy) * n_xy) {}
+KeptPlaces::KeptPlaces(int n_xy, double blind_m)
+    : near_m_(blind_m + kBeyond_m), lethal_(n_xy), flags_(static_cast<std::size_t>(n_xy) * n_xy) {}
 
 MapView KeptPlaces::keep(const MapView& map, const Eigen::Vector2d& vehicle_m) {
   const Cells cells = map.cells();
   lethal_.carry(cells);
   std::copy_n(map.flags, cells.count(), flags_.begin());
-  DiscRows(cells, vehicle_m, kNear_m).for_each([&](int cell) {
+  DiscRows(cells, vehicle_m, near_m_).for_each([&](int cell) {
     std::uint8_t& kept = lethal_[cell];
     kept |= map.flags[cell] & kHoles;
     if (is_seen(map.visibility[cell])) kept &= map.flags[cell];
     flags_[static_cast<std::size_t>(cell)] |= kept;
   });
-  const double square_m2 = kNear_m * kNear_m;
+  const double square_m2 = near_m_ * near_m_;
   for (int cell = 0; cell < cells.count(); ++cell)
     if ((cells.center_of(cell) - vehicle_m).squaredNorm() > square_m2)
       lethal_[cell] = map.flags[cell] & kLethal;

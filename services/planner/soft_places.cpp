@@ -7,7 +7,8 @@
 
 namespace gvom::planner {
 
-SoftPlaces::SoftPlaces(int n_xy) : states_(n_xy), flags_(static_cast<std::size_t>(n_xy) * n_xy) {}
+SoftPlaces::SoftPlaces(int n_xy, double near_m)
+    : near_m_(near_m), states_(n_xy), flags_(static_cast<std::size_t>(n_xy) * n_xy) {}
 
 bool SoftPlaces::was_soft(int cell) const {
   const int n = states_.cells().n;
@@ -27,7 +28,7 @@ MapView SoftPlaces::soften(const MapView& map, const Eigen::Vector2d& vehicle_m)
   std::copy_n(map.flags, cells.count(), flags_.begin());
   for (int y = 0, i = 0; y < cells.n; ++y) {
     const double dy_m = cells.y_m + (y + 0.5) * cells.cell_m - vehicle_m.y();
-    const double square_m2 = kNear_m * kNear_m - dy_m * dy_m;
+    const double square_m2 = near_m_ * near_m_ - dy_m * dy_m;
     const double half_m = square_m2 > 0 ? std::sqrt(square_m2) : -1;
     for (int x = 0; x < cells.n; ++x, ++i) {
       if (std::abs(cells.x_m + (x + 0.5) * cells.cell_m - vehicle_m.x()) <= half_m) continue;
@@ -37,7 +38,7 @@ MapView SoftPlaces::soften(const MapView& map, const Eigen::Vector2d& vehicle_m)
       state = (map.flags[i] & kHard) != 0 ? kWasHard : !soft ? 0 : state == kWasHard ? 1 : counted;
     }
   }
-  DiscRows(cells, vehicle_m, kNear_m).for_each([&](int cell) {
+  DiscRows(cells, vehicle_m, near_m_).for_each([&](int cell) {
     std::uint8_t& flags = flags_[static_cast<std::size_t>(cell)];
     if ((flags & kHard) != 0 && was_soft(cell)) flags = static_cast<std::uint8_t>((flags & ~kHard) | kSoft);
   });

@@ -9,16 +9,16 @@
 namespace gvom::planner {
 
 /// Within the blind ring of a lidar few rays come through grass and bushes, and what was SOFT all the way up
-/// becomes HARD beside the vehicle. A column that was SOFT from farther than `kNear_m` stays so within that.
+/// becomes HARD beside the vehicle. A column that was SOFT from farther than that ring stays so within that.
 /// So does an open one next to it: odometry's noise moves edges by a column. One that was HARD, or has such a
 /// neighbour, and one that was never seen from afar, is HARD.
 class SoftPlaces {
  public:
-  static constexpr double kNear_m = 3;
   static constexpr std::uint8_t kSure = 3;  ///< In so many maps, one after the other.
 
   /// @param n_xy the largest map, columns along an edge
-  explicit SoftPlaces(int n_xy);
+  /// @param near_m so far the ring reaches
+  SoftPlaces(int n_xy, double near_m);
 
   /// Forgets all: the map begins anew.
   void clear() { states_.clear(); }
@@ -31,6 +31,7 @@ class SoftPlaces {
 
   [[nodiscard]] bool was_soft(int cell) const;
 
+  double near_m_;
   CarriedCells states_;  ///< In how many maps it was SOFT, or kWasHard.
   std::vector<std::uint8_t> flags_;
 };

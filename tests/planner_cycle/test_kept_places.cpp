@@ -14,8 +14,10 @@ constexpr double kDitch_x_m = 15, kDitch_y_m = 10;
 
 /// A map of 25.6 m with a ditch across.
 struct Ground {
+  explicit Ground(double blind_m = 3) : kept(64, blind_m) {}
+
   SmallMap map{64};
-  KeptPlaces kept{64};
+  KeptPlaces kept;
 
   void set(std::uint8_t flags, Visibility visibility) {
     map.where(box(kDitch_x_m - 0.5, 0, kDitch_x_m + 0.5, 25), [&](std::size_t i) {
@@ -42,6 +44,16 @@ TEST_CASE("a hole that is forgotten and assumed to be ground stays one beside th
   CHECK(ground.look(2) == 0);
   ground.set(0, Visibility::ground_assumed);
   CHECK(ground.look(2) == 0);
+}
+
+TEST_CASE("it is kept as far as the ring of the lidar and a metre") {
+  for (const double blind_m : {3.0, 6.2}) {
+    Ground ground(blind_m);
+    ground.set(kNegative, Visibility::unobserved);
+    ground.look(6);
+    ground.set(0, Visibility::ground_assumed);
+    CHECK(ground.look(6) == (blind_m > 5 ? kNegative : 0));
+  }
 }
 
 TEST_CASE("what was hard from afar stays hard; what turned hard beside the vehicle only as long as it is") {

@@ -23,7 +23,7 @@ void place_bush(SmallMap& map, std::uint8_t flag) {
 /// @return the flags of the bush's middle at the end
 std::uint8_t flags_beside(std::uint8_t afar, std::uint8_t near) {
   SmallMap map(64);
-  SoftPlaces soft(64);
+  SoftPlaces soft(64, 3);
   planner::MapView view;
   for (double away_m = 8; away_m >= 2; away_m -= 0.3) {
     const Eigen::Vector2d vehicle_m(kBush_x_m - away_m, kBush_y_m);
@@ -46,7 +46,7 @@ TEST_CASE("a bush stays soft beside the vehicle, a rock hard, and who steps in f
 
 TEST_CASE("what became hard before it was near is hard, and so is what was never seen from afar") {
   SmallMap map(64);
-  SoftPlaces soft(64);
+  SoftPlaces soft(64, 3);
   const int middle = map.cells().index_of(kBush_x_m, kBush_y_m);
   const auto look = [&](std::uint8_t flag, double away_m) {
     place_bush(map, flag);
@@ -62,7 +62,7 @@ TEST_CASE("what became hard before it was near is hard, and so is what was never
 }
 
 TEST_CASE("what was soft is known by its place when the map moves on") {
-  SoftPlaces soft(64);
+  SoftPlaces soft(64, 3);
   for (int i = 0; i < SoftPlaces::kSure; ++i) {
     SmallMap before(64);
     place_bush(before, kSoft);
