@@ -142,7 +142,7 @@ void Movers::follow(const MapView& map) {
     if (Track* const track = track_of(middle_m, stamp_ns))
       go_on(map, middle_m, alone_m.has_value(), *track);
     else if (tracks_.size() < kMost)
-      tracks_.push_back({middle_m, stamp_ns, middle_m, stamp_ns, {0, 0}, 0, 0, false, false});
+      tracks_.push_back({middle_m, stamp_ns, middle_m, stamp_ns});
   }
   for (Track& track : tracks_) {
     track.moves = track.moves && stamp_ns - track.moved_ns <= kHold_ns;
