@@ -96,5 +96,21 @@ TEST_CASE("it stays where it is when the map moves") {
   CHECK(view.flags[moved.cells().index_of(kDitch_x_m + 1.2, kDitch_y_m)] == 0);
 }
 
+TEST_CASE("the planner keeps what its vehicle file says is blind") {
+  for (const double blind_m : {3.0, 6.2}) {
+    planner::PlannerConfig config;
+    config.blind_m = blind_m;
+    Ground ground;
+    Loop loop(config, ground.map, {kDitch_x_m - 6, kDitch_y_m, 0});
+    loop.planner.set_course({{22, kDitch_y_m}});
+    ground.set(kNegative, Visibility::unobserved);
+    CHECK(loop.step().reason == planner::Reason::no_way);
+    ground.set(0, Visibility::ground_assumed);
+    ground.map.obstacle(box(14, 0, 16, kDitch_y_m - 3));
+    ground.map.obstacle(box(14, kDitch_y_m + 3, 16, 26));
+    CHECK((loop.step().reason == planner::Reason::no_way) == (blind_m > 5));
+  }
+}
+
 }  // namespace
 }  // namespace gvom::test
