@@ -67,7 +67,7 @@ Taken OdometryIntake::take(const OdometryNews& news, std::int64_t now_ns) {
 }
 
 Taken OdometryIntake::take_pose(const StampedPose& pose, std::int64_t now_ns) {
-  const PoseJudge::Verdict verdict = judge_.judge(pose);
+  const services::PoseJudge::Verdict verdict = judge_.judge(pose);
   const Taken taken = note_step(verdict, now_ns);
   if (taken == Taken::not_a_pose || taken == Taken::backwards) return taken;
   if (taken == Taken::gap || taken == Taken::anew) clock_.forget();
@@ -82,25 +82,25 @@ Taken OdometryIntake::take_pose(const StampedPose& pose, std::int64_t now_ns) {
 }
 
 /// Counts and tells what is not steady.
-Taken OdometryIntake::note_step(const PoseJudge::Verdict& verdict, std::int64_t now_ns) {
+Taken OdometryIntake::note_step(const services::PoseJudge::Verdict& verdict, std::int64_t now_ns) {
   switch (verdict.step) {
-    case PoseStep::steady:
+    case services::PoseStep::steady:
       break;
-    case PoseStep::gap:
+    case services::PoseStep::gap:
       // Told for as long as the next one may take to show, so that odometry that is too slow stays told.
       seen_.see(OdometryFault::gap, verdict.value, now_ns,
                 Sightings<OdometryFault>::kHold_ns + nanoseconds(std::min(verdict.value, kLongestGap_s)));
       return ++counts_.gaps, Taken::gap;
-    case PoseStep::jump:
+    case services::PoseStep::jump:
       seen_.see(OdometryFault::jump, verdict.value, now_ns);
       return ++counts_.jumps, Taken::jump;
-    case PoseStep::anew:
+    case services::PoseStep::anew:
       seen_.see(OdometryFault::backwards, 0, now_ns);
       return ++counts_.gaps, Taken::anew;
-    case PoseStep::not_a_pose:
+    case services::PoseStep::not_a_pose:
       seen_.see(OdometryFault::not_finite, 0, now_ns);
       return ++counts_.not_finite, Taken::not_a_pose;
-    case PoseStep::backwards:
+    case services::PoseStep::backwards:
       seen_.see(OdometryFault::backwards, 0, now_ns);
       return ++counts_.not_newer, Taken::backwards;
   }

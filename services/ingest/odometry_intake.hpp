@@ -8,10 +8,10 @@
 
 #include "core/odometry_buffer.hpp"
 #include "core/sweep.hpp"
+#include "services/common/pose_judge.hpp"
 #include "services/common/vehicle_config.hpp"
 #include "services/common/words.hpp"
 #include "services/ingest/clock_check.hpp"
-#include "services/ingest/pose_judge.hpp"
 #include "services/ingest/sightings.hpp"
 #include "services/ingest/sweep_losses.hpp"
 
@@ -99,14 +99,14 @@ class OdometryIntake {
  private:
   void begin_epoch(std::uint64_t epoch);
   Taken take_pose(const StampedPose& pose, std::int64_t now_ns);
-  Taken note_step(const PoseJudge::Verdict& verdict, std::int64_t now_ns);
+  Taken note_step(const services::PoseJudge::Verdict& verdict, std::int64_t now_ns);
   [[nodiscard]] bool is_silent(std::int64_t now_ns) const;
   [[nodiscard]] std::optional<std::int64_t> ahead_ns(const Sweep& sweep) const;
   void describe_clock(services::Words& words) const;
 
   const services::OdometryConfig config_;
   const bool live_;
-  PoseJudge judge_;
+  services::PoseJudge judge_;
   OdometryBuffer poses_;
   OdometryCounts counts_;
   Sightings<OdometryFault> seen_;

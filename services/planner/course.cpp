@@ -44,7 +44,7 @@ bool Progress::update(std::int64_t stamp_ns, double cost_to_go, double distance_
     last_ns_ = stamp_ns;
     return false;
   }
-  const double seconds = static_cast<double>(stamp_ns - last_ns_) * 1e-9;
+  const double seconds = std::clamp(static_cast<double>(stamp_ns - last_ns_) * 1e-9, 0.0, kMostAtOnce_s);
   last_ns_ = stamp_ns;
   since_progress_s_ += seconds;
   since_best_s_ += seconds;

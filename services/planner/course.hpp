@@ -61,6 +61,7 @@ class Progress {
   void wait(std::int64_t stamp_ns);
 
   static constexpr double kLess = 1;
+  static constexpr double kMostAtOnce_s = 1;  ///< More between two cycles is a clock's step, or a sleep.
   static constexpr double kPatience = 5;
 
  private:

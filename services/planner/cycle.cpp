@@ -22,7 +22,7 @@ SearchResult Planner::Impl::search(const MapView& map, const Predicted& at) {
 
 bool Planner::Impl::find_way(const MapView& map, const Predicted& at) {
   SearchResult result = search(map, at);
-  const auto fails = [&] { return result == SearchResult::no_way || result == SearchResult::in_obstacle; };
+  const auto fails = [&] { return result != SearchResult::found && result != SearchResult::cut; };
   if (fails() && !closed_.empty()) {
     closed_.clear();
     view_ = movers_.close(map);
@@ -35,10 +35,10 @@ bool Planner::Impl::find_way(const MapView& map, const Predicted& at) {
   }
   if (fails()) {
     const double away_m = (now_.pose.place() - course_.waypoint()).norm();
-    const bool stands_in = room_now_m_ < -kInObstacle_m;
-    stop(result == SearchResult::no_way ? Reason::no_way
-         : stands_in                    ? Reason::stands_in_obstacle
-                                        : Reason::goal_in_obstacle);
+    const bool stands_in = result != SearchResult::no_way && room_now_m_ < -kInObstacle_m;
+    stop(stands_in                                  ? Reason::stands_in_obstacle
+         : result == SearchResult::goal_in_obstacle ? Reason::goal_in_obstacle
+                                                    : Reason::no_way);
     say(plan_.why, "stops: %s, waypoint %zu, %.1f m away", words_of(plan_.reason), plan_.waypoint, away_m);
     return false;
   }
@@ -126,8 +126,10 @@ void Planner::Impl::brake_for_movers(const MapView& map, const Predicted& at) {
     knows_next_ = false;
     make_guide();
     plan_.path = optimiser_.optimise(costs_, at.pose, at.curvature_per_m, at.speed_mps, guide_);
-    if (const Trajectory* best = fan_.choose(fan_input(at)))
+    if (const Trajectory* best = fan_.choose(fan_input(at))) {
       driven_.assign(best->points.begin(), best->points.end());
+      brake_along(at.speed_mps, SpeedProfile::kBrakeShare * config_.vehicle.max_decel_mps2, driven_);
+    }
   }
   stop(Reason::mover);
 }

@@ -24,11 +24,15 @@ class Planner::Impl {
 
   void set_course(std::vector<Eigen::Vector2d> waypoints_m);
   const Plan& cycle(const MapView* map, const State& state, const Senses& senses);
+  const Plan& stand(Reason reason, const char* why);
 
  private:
+  void begin_plan();
   void observe(const State& state, const Senses& senses);
+  void forget_place();
   /// @return whether the planner may look at the map; if not, the plan says why.
   bool may_plan(const MapView* map, const Senses& senses);
+  bool may_use(const MapView* map, const Senses& senses);
   void drive(const MapView& seen, const Senses& senses);
   void back(const Predicted& at, const Senses& senses);
   /// @return whether there is a way; if not, the plan says why.
@@ -53,6 +57,7 @@ class Planner::Impl {
   void stop(Reason reason, Mode mode = Mode::stop);
 
   PlannerConfig config_;
+  int n_xy_;
   Costmap costs_;
   Search search_;
   Search next_search_;  ///< From the waypoint on to the next one, when that is near.

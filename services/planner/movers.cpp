@@ -46,20 +46,26 @@ Movers::Movers(const VehicleLimits& vehicle, int n_xy) : vehicle_(vehicle) {
 
 void Movers::clear() {
   taken_ = 0;
+  observed_ns_.reset();
   tracks_.clear();
   discs_.clear();
 }
 
 void Movers::observe(const MapView& map, const Eigen::Vector2d& vehicle_m, double speed_mps) {
-  found_.clear();
-  if (const Past* past = past_of(map.stamp_ns)) find(map, *past, vehicle_m);
-  follow(map);
+  if (observed_ns_ != map.stamp_ns) {
+    observed_ns_ = map.stamp_ns;
+    found_.clear();
+    if (const Past* past = past_of(map.stamp_ns)) find(map, *past, vehicle_m);
+    follow(map);
+    remember(map);
+  }
   close_ahead(map.stamp_ns, vehicle_m, speed_mps);
-  remember(map);
 }
 
 void Movers::remember(const MapView& map) {
   constexpr auto kLeast = static_cast<std::uint8_t>(Visibility::ground_assumed);
+  const Past* const newest = newest_past();
+  if (newest != nullptr && map.stamp_ns - newest->stamp_ns < kPastEvery_ns) return;
   Past& now = pasts_[taken_++ % kPasts];
   now.stamp_ns = map.stamp_ns;
   now.cells = map.cells();
@@ -67,6 +73,10 @@ void Movers::remember(const MapView& map) {
     now.known[static_cast<std::size_t>(i)] = map.visibility[i] >= kLeast && map.height[i] == map.height[i];
     now.standing[static_cast<std::size_t>(i)] = (map.flags[i] & kStands) != 0;
   }
+}
+
+const Movers::Past* Movers::newest_past() const {
+  return taken_ == 0 ? nullptr : &pasts_[(taken_ - 1) % kPasts];
 }
 
 const Movers::Past* Movers::past_of(std::int64_t stamp_ns) const {

@@ -51,7 +51,8 @@ class Movers {
 
   /// Forgets all: the map begins anew.
   void clear();
-  /// Each cycle with a map, nothing closed in it. @param speed_mps of the vehicle
+  /// Each cycle with a map, which may be that of the cycle before; nothing closed in it.
+  /// @param speed_mps of the vehicle
   void observe(const MapView& map, const Eigen::Vector2d& vehicle_m, double speed_mps);
   [[nodiscard]] bool empty() const { return discs_.empty(); }
   /// Where each mover is, and what it can reach.
@@ -64,6 +65,8 @@ class Movers {
  private:
   static constexpr std::size_t kMost = 16;
   static constexpr std::size_t kPasts = 16;
+  static constexpr std::int64_t kPastEvery_ns = 50'000'000;
+  static_assert((kPasts - 1) * kPastEvery_ns > kBack_ns);
   static constexpr double kApart_m = 1.5;  ///< Columns nearer than this are of the same mover.
 
   /// What is kept of a map.
@@ -94,6 +97,7 @@ class Movers {
   void remember(const MapView& map);
   /// The newest that is old enough; nullptr: there is none.
   [[nodiscard]] const Past* past_of(std::int64_t stamp_ns) const;
+  [[nodiscard]] const Past* newest_past() const;
   [[nodiscard]] static bool is_by_hole(const MapView& map, int index);
   [[nodiscard]] static bool was_open(const Past& past, const Eigen::Vector2d& place_m);
   /// Little else stands around it.
@@ -113,6 +117,7 @@ class Movers {
   VehicleLimits vehicle_;
   std::array<Past, kPasts> pasts_;
   std::size_t taken_ = 0;
+  std::optional<std::int64_t> observed_ns_;  ///< The stamp of the newest map.
   std::vector<Found> found_;
   std::vector<Track> tracks_;
   std::vector<Disc> discs_;

@@ -12,6 +12,8 @@ namespace {
 constexpr double kStands_mps = 0.1;
 constexpr double kWaits_mps = 2.5;  // slower than that it lets pass who is beside it
 constexpr int kStandCycles = 3;     // what a jump of the odometry says of the speed is nothing at first
+constexpr std::int64_t kMostAtOnce_ns =
+    1'000'000'000;  // more between two cycles is a clock's step, or a sleep
 
 }  // namespace
 
@@ -23,9 +25,13 @@ void Planner::set_course(std::vector<Eigen::Vector2d> waypoints_m) {
 const Plan& Planner::cycle(const MapView* map, const State& state, const Senses& senses) {
   return impl_->cycle(map, state, senses);
 }
+const Plan& Planner::stand(Reason reason, const char* why) {
+  return impl_->stand(reason, why);
+}
 
 Planner::Impl::Impl(const PlannerConfig& config, int n_xy)
     : config_(config),
+      n_xy_(n_xy),
       costs_(config.costmap, config.vehicle, n_xy),
       search_(n_xy),
       next_search_(n_xy),
@@ -57,38 +63,60 @@ void Planner::Impl::set_course(std::vector<Eigen::Vector2d> waypoints_m) {
   arrived_ = gave_up_ = false;
 }
 
-const Plan& Planner::Impl::cycle(const MapView* map, const State& state, const Senses& senses) {
+void Planner::Impl::begin_plan() {
   plan_.searched.clear();
   plan_.path.clear();
   plan_.trajectory.clear();
   plan_.seen_m = 0;
+}
+
+const Plan& Planner::Impl::cycle(const MapView* map, const State& state, const Senses& senses) {
+  begin_plan();
   observe(state, senses);
-  if (may_plan(map, senses)) {
+  bool may_progress = may_plan(map, senses);
+  if (may_progress) {
     drive(*map, senses);
-    if (movers_.empty())
-      watch_progress();
-    else
-      progress_.wait(stamp_ns_);
-  } else {
-    progress_.wait(stamp_ns_);
+    may_progress = movers_.empty() && plan_.reason != Reason::blind_side;
   }
+  if (may_progress)
+    watch_progress();
+  else
+    progress_.wait(stamp_ns_);
   prediction_.add(plan_.command);
   return plan_;
 }
 
+const Plan& Planner::Impl::stand(Reason reason, const char* why) {
+  begin_plan();
+  plan_.mode = Mode::stop;
+  plan_.reason = reason;
+  plan_.command.speed_mps = 0;
+  say(plan_.why, "%s", why);
+  prediction_.add(plan_.command);
+  return plan_;
+}
+
+void Planner::Impl::forget_place() {
+  retreat_.forget();
+  closed_.clear();
+  kept_.clear();
+  soft_.clear();
+  movers_.clear();
+  driven_.clear();
+  fan_.forget();
+}
+
 void Planner::Impl::observe(const State& state, const Senses& senses) {
+  if (state.stamp_ns < stamp_ns_ || state.stamp_ns - stamp_ns_ > kMostAtOnce_ns) {
+    unseen_since_ns_.reset();
+    retreat_.clear();
+  }
   stamp_ns_ = state.stamp_ns;
   now_ = {flat(state.T_odom_base), state.speed_mps, state.curvature_per_m};
   if (senses.odometry_jumped) {
     jump_ns_ = stamp_ns_;
     must_stand_ = kStandCycles;
-    retreat_.forget();
-    closed_.clear();
-    kept_.clear();
-    soft_.clear();
-    movers_.clear();
-    driven_.clear();
-    fan_.forget();
+    forget_place();
   }
   retreat_.observe(now_.pose);
   const std::size_t before = course_.index();
@@ -107,16 +135,11 @@ bool Planner::Impl::may_plan(const MapView* map, const Senses& senses) {
     arrived_ = true;
     stop(Reason::near_goal, Mode::arrived);
     say(plan_.why, "arrived: %.1f m from the last waypoint", (now_.pose.place() - course_.waypoint()).norm());
-  } else if (map == nullptr) {
-    stop(Reason::no_layers);
-  } else if (jump_ns_ && map->stamp_ns <= *jump_ns_) {
-    stop(Reason::odometry_jump);
-    say(plan_.why, "stops: odometry jumped, and the map is %.2f s older than that",
-        static_cast<double>(*jump_ns_ - map->stamp_ns) * 1e-9);
-  } else if (senses.layers_age_s > config_.max_age_s) {
-    stop(Reason::stale_layers);
-    say(plan_.why, "stops: the layers are %.2f s old, more than %.2f s", senses.layers_age_s,
-        config_.max_age_s);
+  } else if (senses.overrun_s > 0) {
+    stop(Reason::overrun);
+    say(plan_.why, "stops: the last cycle took %.0f ms", 1e3 * senses.overrun_s);
+  } else if (!may_use(map, senses)) {
+    return false;
   } else if (must_stand_ > 0) {
     must_stand_ = stands() ? must_stand_ - 1 : kStandCycles;
     stop(Reason::odometry_jump);
@@ -127,6 +150,30 @@ bool Planner::Impl::may_plan(const MapView* map, const Senses& senses) {
     stop(Reason::near_goal);
     say(plan_.why, "stops: the goal is %.1f m away, and it comes no nearer",
         (now_.pose.place() - course_.goal()).norm());
+  }
+  return false;
+}
+
+bool Planner::Impl::may_use(const MapView* map, const Senses& senses) {
+  if (jump_ns_ && map == nullptr) {
+    stop(Reason::odometry_jump);
+    say(plan_.why, "stops: odometry jumped, and there is no map from after that");
+  } else if (map == nullptr) {
+    stop(Reason::no_layers);
+  } else if (map->cells().n > n_xy_) {
+    stop(Reason::no_layers);
+    say(plan_.why, "stops: layers of %d x %d columns, the vehicle's file says %d", map->cells().n,
+        map->cells().n, n_xy_);
+  } else if (jump_ns_ && map->stamp_ns <= *jump_ns_) {
+    stop(Reason::odometry_jump);
+    say(plan_.why, "stops: odometry jumped, and the map is %.2f s older than that",
+        static_cast<double>(*jump_ns_ - map->stamp_ns) * 1e-9);
+  } else if (senses.layers_age_s > config_.max_age_s) {
+    stop(Reason::stale_layers);
+    say(plan_.why, "stops: the layers are %.2f s old, more than %.2f s", senses.layers_age_s,
+        config_.max_age_s);
+  } else {
+    return true;
   }
   return false;
 }

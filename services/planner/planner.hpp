@@ -28,6 +28,7 @@ struct Senses {
   bool blind_ahead = false;  ///< No lidar that looks ahead has a map in the window.
   bool blind_behind = false;
   bool odometry_jumped = false;  ///< Since the last cycle.
+  double overrun_s = 0;          ///< So long took the last cycle, too long; 0: it did not.
 };
 
 enum class Mode : std::uint8_t { drive, creep, back, stop, arrived, gave_up };
@@ -96,8 +97,12 @@ class Planner {
   void set_course(std::vector<Eigen::Vector2d> waypoints_m);
 
   /// One cycle, `1 / rate_hz` after the last. Deterministic, without allocations after the first ones.
-  /// @param map nullptr: none is there
+  /// @param map nullptr: none is there. One larger than `n_xy` is not driven by.
   const Plan& cycle(const MapView* map, const State& state, const Senses& senses);
+
+  /// Instead of a cycle, where nobody knows where the vehicle is: it stands, and steers as before meanwhile.
+  /// @param why in words
+  const Plan& stand(Reason reason, const char* why);
 
  private:
   class Impl;

@@ -36,7 +36,8 @@ SearchResult Search::run(const Costmap& map, const Eigen::Vector2d& vehicle_m, c
   }
   vehicle_ = node_of(cell);
   prepare(map, vehicle_m, around_m);
-  SearchResult result = SearchResult::in_obstacle;
+  const bool goal_on_map = cells_.index_of(goal_m.x(), goal_m.y()) >= 0;
+  SearchResult result = goal_on_map ? SearchResult::goal_in_obstacle : SearchResult::no_way;
   if (seed(map, goal_m)) {
     start_queue();
     const bool spent = expand_all(budget);
@@ -47,8 +48,9 @@ SearchResult Search::run(const Costmap& map, const Eigen::Vector2d& vehicle_m, c
       path_.push_back(cells_.center_of(cell));
       trace(nearest_reached());
       result = SearchResult::cut;
-    } else if (map.cost()[cell] < kLethalCost) {
-      result = SearchResult::no_way;
+    } else {
+      const bool free = map.cost()[cell] < kLethalCost;
+      result = free ? SearchResult::no_way : SearchResult::vehicle_in_obstacle;
     }
   }
   copy_cost();

@@ -15,7 +15,8 @@ enum class SearchResult {
   found,   ///< A way to the goal, or to the border where the goal is beyond the map.
   cut,     ///< The budget was spent: the way to what came nearest to the vehicle; not all of it is searched.
   no_way,  ///< All that the goal can be reached from is searched, and the vehicle is not there.
-  in_obstacle,  ///< The vehicle stands, or the goal lies, where nothing fits.
+  goal_in_obstacle,     ///< And no free cell is near enough to it.
+  vehicle_in_obstacle,  ///< It stands where nothing fits, and no way leads there.
 };
 
 /// Searches backwards, from the goal to the vehicle, so that what any place around the vehicle still costs is

@@ -22,10 +22,8 @@ bool SoftPlaces::was_soft(int cell) const {
   return soft;
 }
 
-MapView SoftPlaces::soften(const MapView& map, const Eigen::Vector2d& vehicle_m) {
+void SoftPlaces::count(const MapView& map, const Eigen::Vector2d& vehicle_m) {
   const Cells cells = map.cells();
-  states_.carry(cells);
-  std::copy_n(map.flags, cells.count(), flags_.begin());
   for (int y = 0, i = 0; y < cells.n; ++y) {
     const double dy_m = cells.y_m + (y + 0.5) * cells.cell_m - vehicle_m.y();
     const double square_m2 = near_m_ * near_m_ - dy_m * dy_m;
@@ -38,6 +36,14 @@ MapView SoftPlaces::soften(const MapView& map, const Eigen::Vector2d& vehicle_m)
       state = (map.flags[i] & kHard) != 0 ? kWasHard : !soft ? 0 : state == kWasHard ? 1 : counted;
     }
   }
+}
+
+MapView SoftPlaces::soften(const MapView& map, const Eigen::Vector2d& vehicle_m) {
+  const Cells cells = map.cells();
+  states_.carry(cells);
+  if (counted_ns_ != map.stamp_ns) count(map, vehicle_m);
+  counted_ns_ = map.stamp_ns;
+  std::copy_n(map.flags, cells.count(), flags_.begin());
   DiscRows(cells, vehicle_m, near_m_).for_each([&](int cell) {
     std::uint8_t& flags = flags_[static_cast<std::size_t>(cell)];
     if ((flags & kHard) != 0 && was_soft(cell)) flags = static_cast<std::uint8_t>((flags & ~kHard) | kSoft);

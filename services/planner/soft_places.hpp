@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "services/planner/carried_cells.hpp"
@@ -21,18 +22,23 @@ class SoftPlaces {
   SoftPlaces(int n_xy, double near_m);
 
   /// Forgets all: the map begins anew.
-  void clear() { states_.clear(); }
-  /// Each cycle with a map. @return the map with flags that hold that. It borrows the map's arrays, and is
-  /// valid until the next call.
+  void clear() {
+    states_.clear();
+    counted_ns_.reset();
+  }
+  /// Each cycle with a map, which may be that of the cycle before. @return the map with flags that hold that.
+  /// It borrows the map's arrays, and is valid until the next call.
   MapView soften(const MapView& map, const Eigen::Vector2d& vehicle_m);
 
  private:
   static constexpr std::uint8_t kWasHard = 255;
 
   [[nodiscard]] bool was_soft(int cell) const;
+  void count(const MapView& map, const Eigen::Vector2d& vehicle_m);
 
   double near_m_;
-  CarriedCells states_;  ///< In how many maps it was SOFT, or kWasHard.
+  CarriedCells states_;                     ///< In how many maps it was SOFT, or kWasHard.
+  std::optional<std::int64_t> counted_ns_;  ///< The stamp of the newest of them.
   std::vector<std::uint8_t> flags_;
 };
 

@@ -116,6 +116,14 @@ void SpeedProfile::brake_and_accelerate(double speed_mps, std::vector<Trajectory
   }
 }
 
+void brake_along(double speed_mps, double decel_mps2, std::vector<TrajectoryPoint>& trajectory) {
+  double square = speed_mps * speed_mps;
+  for (TrajectoryPoint& point : trajectory) {
+    point.speed_mps = std::sqrt(square);
+    square = std::max(0.0, square - 2 * decel_mps2 * kStep_m);
+  }
+}
+
 double speed_at(const std::vector<TrajectoryPoint>& trajectory, double along_m) {
   const double place = std::clamp(along_m / kStep_m, 0.0, static_cast<double>(trajectory.size() - 1));
   const auto before = static_cast<std::size_t>(place);

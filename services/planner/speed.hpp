@@ -57,6 +57,9 @@ class SpeedProfile {
   SpeedLimits limits_;
 };
 
+/// Sets the speed at each point to what is left when the vehicle brakes from the first one on.
+void brake_along(double speed_mps, double decel_mps2, std::vector<TrajectoryPoint>& trajectory);
+
 /// The speed so far along a trajectory, linear between its points.
 double speed_at(const std::vector<TrajectoryPoint>& trajectory, double along_m);
 

@@ -168,7 +168,7 @@ TEST_CASE("A goal in an obstacle is reached beside it, but not farther off than 
   FlatMap large(48);
   large.flag(10, 10, 30, 30, kHard);
   Ways inside{large};
-  CHECK(inside.run(map.middle_m(4, 25), map.middle_m(20, 20)) == SearchResult::in_obstacle);
+  CHECK(inside.run(map.middle_m(4, 25), map.middle_m(20, 20)) == SearchResult::goal_in_obstacle);
 }
 
 TEST_CASE("A vehicle that stands too near to something leaves, one that is shut in does not") {
@@ -180,7 +180,7 @@ TEST_CASE("A vehicle that stands too near to something leaves, one that is shut 
   CHECK(ways.to_go(20, 20) > 0.4 * 16);
   map.flag(10, 10, 30, 30, kHard);
   Ways shut{map, CostmapConfig{}, VehicleLimits{}};
-  CHECK(shut.run(map.middle_m(20, 20), map.middle_m(4, 20)) == SearchResult::in_obstacle);
+  CHECK(shut.run(map.middle_m(20, 20), map.middle_m(4, 20)) == SearchResult::vehicle_in_obstacle);
   CHECK(shut.run({-3, 4}, map.middle_m(4, 20)) == SearchResult::no_way);
 }
 

@@ -70,6 +70,55 @@ TEST_CASE("After a jump of odometry only a map from after it is driven by, and f
   CHECK(flat.loop.vehicle.speed_mps() < 0.1);
 }
 
+/// On an arc to the left at speed.
+struct Bend : Flat {
+  Bend() {
+    loop.planner.set_course({{16, 35}});
+    while (loop.vehicle.speed_mps() < 1.5 || curvature_per_m < 0.2)
+      curvature_per_m = loop.step().command.curvature_per_m;
+  }
+  double curvature_per_m = 0;
+};
+
+TEST_CASE("Where nobody knows where it is, it brakes on the arc that it drove, and plans on from there") {
+  Bend bend;
+  for (int i = 0; i < 5; ++i) {
+    const Plan& plan = bend.loop.planner.stand(Reason::no_odometry, "no odometry for 0.3 s");
+    check_stop(plan, Reason::no_odometry, "no odometry for 0.3 s");
+    CHECK(plan.command.curvature_per_m == bend.curvature_per_m);
+    CHECK(plan.trajectory.empty());
+    bend.loop.vehicle.drive(plan.command, bend.loop.period_s);
+  }
+  // The commands on their way are to stand: at first it drives no faster than it speeds up in a cycle.
+  const double speed_mps = bend.loop.vehicle.speed_mps();
+  const double more_mps = bend.config.vehicle.max_accel_mps2 * bend.loop.period_s;
+  CHECK(bend.loop.step().command.speed_mps <= speed_mps + more_mps);
+  CHECK(bend.loop.until(Mode::arrived, 20));
+}
+
+TEST_CASE("After a cycle that took too long it brakes on its arc") {
+  Bend bend;
+  bend.loop.senses.overrun_s = 0.123;
+  const Plan& plan = bend.loop.step();
+  check_stop(plan, Reason::overrun, "the last cycle took 123 ms");
+  CHECK(plan.command.curvature_per_m > 0.1);
+  bend.loop.senses.overrun_s = 0;
+  CHECK(bend.loop.step().mode == Mode::drive);
+}
+
+TEST_CASE("Layers larger than it was made for are none") {
+  SmallMap map(64), large(128);
+  planner::Planner planner({}, 64);
+  planner.set_course({{20, 12}});
+  planner::State state;
+  state.T_odom_base.translation_m = {10, 12, 0};
+  planner::MapView view = large.view();
+  check_stop(planner.cycle(&view, state, {}), Reason::no_layers,
+             "128 x 128 columns, the vehicle's file says 64");
+  view = map.view();
+  CHECK(planner.cycle(&view, state, {}).mode == Mode::drive);
+}
+
 TEST_CASE("A wall across the map leaves no way, and after a while it gives up") {
   Flat flat;
   flat.config.give_up_s = 5;
@@ -84,7 +133,7 @@ TEST_CASE("A wall across the map leaves no way, and after a while it gives up") 
   CHECK(loop.step().mode == Mode::drive);
 }
 
-TEST_CASE("Time without a map is no reason to give up") {
+TEST_CASE("Time without a map, or with a blind side, is no reason to give up") {
   Flat flat;
   flat.config.give_up_s = 5;
   Loop loop(flat.config, flat.map, {10, 25, 0});
@@ -93,7 +142,28 @@ TEST_CASE("Time without a map is no reason to give up") {
   loop.senses.layers_age_s = 9;
   CHECK_FALSE(loop.until(Mode::gave_up, 20));
   loop.senses.layers_age_s = 0;
+  loop.senses.blind_ahead = true;
+  CHECK_FALSE(loop.until(Mode::gave_up, 20));
+  loop.senses.blind_ahead = false;
   CHECK(loop.step().mode == Mode::drive);
+}
+
+TEST_CASE("A clock that leaps is no reason to give up, nor to back") {
+  Flat flat;
+  flat.config.give_up_s = 5;
+  flat.map.obstacle(box(16, 0, 17.2, 52));  // it stands before it
+  planner::Planner planner(flat.config, 128);
+  planner.set_course({{40, 25}});
+  planner::State state;
+  state.T_odom_base.translation_m = {10, 25, 0};
+  for (const std::int64_t leap_ns : {3'600'000'000'000, -1'800'000'000'000}) {
+    for (int i = 0; i < 3; ++i) {
+      state.stamp_ns += 100'000'000;
+      const planner::MapView view = flat.map.view(state.stamp_ns);
+      CHECK(planner.cycle(&view, state, {}).mode == Mode::stop);
+    }
+    state.stamp_ns += leap_ns;
+  }
 }
 
 TEST_CASE("A waypoint deep in an obstacle is none") {
@@ -101,6 +171,14 @@ TEST_CASE("A waypoint deep in an obstacle is none") {
   flat.map.obstacle(disc(40, 25, 6));
   flat.loop.planner.set_course({{40, 25}});
   check_stop(flat.loop.step(), Reason::goal_in_obstacle, "lies in an obstacle");
+}
+
+TEST_CASE("Boxed in beside a wall there is no way, and the waypoint is not to blame") {
+  Flat flat;
+  flat.map.obstacle([](double x, double y) { return x < 30 && !box(8.8, 24.8, 11.3, 26.2)(x, y); });
+  Loop loop(flat.config, flat.map, {10, 25.2, 0});  // its side 0.1 m in a column, no more than that may err
+  loop.planner.set_course({{40, 25}});
+  check_stop(loop.step(), Reason::no_way, "no way to the waypoint");
 }
 
 TEST_CASE("It does not drive out of an obstacle that it stands in") {

@@ -54,7 +54,7 @@ struct Sight {
   explicit Sight(SmallMap& a_map) : map(a_map), movers({}, a_map.cells().n) {}
 
   void look(double speed_mps = 0) {
-    stamp_ns += kTurn_ns;
+    stamp_ns += turn_ns;
     movers.observe(map.view(stamp_ns), {10, 10}, speed_mps);
   }
   /// The column (x, y) alone has this flag, of all.
@@ -67,6 +67,7 @@ struct Sight {
   SmallMap& map;
   Movers movers;
   std::int64_t stamp_ns = 1'000'000'000;
+  std::int64_t turn_ns = kTurn_ns;
 };
 
 TEST_CASE("what walks is closed as far as it gets until the vehicle is there or stands") {
@@ -100,6 +101,20 @@ TEST_CASE("what walks is closed as far as it gets until the vehicle is there or 
     CHECK(sight.movers.discs().size() == 1);
     for (int turn = 0; turn < 3; ++turn) sight.look();
     CHECK(sight.movers.empty());
+  }
+}
+
+TEST_CASE("he is seen to walk at any rate of maps, and by each of them once") {
+  for (const int per_turn : {1, 2, 5, 10}) {
+    SmallMap map(64);
+    Sight sight(map);
+    sight.turn_ns = kTurn_ns / per_turn;
+    for (int turn = 0; turn < 12 * per_turn; ++turn) {
+      sight.look_at(30 + turn / per_turn / 2, 25, kHard);
+      for (int again = 0; again < 3; ++again) sight.movers.observe(map.view(sight.stamp_ns), {10, 10}, 0);
+    }
+    CAPTURE(per_turn);
+    CHECK(sight.movers.discs().size() == 3);
   }
 }
 

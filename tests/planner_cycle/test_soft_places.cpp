@@ -26,6 +26,7 @@ std::uint8_t flags_beside(std::uint8_t afar, std::uint8_t near) {
   SmallMap map(64);
   SoftPlaces soft(64, 3);
   planner::MapView view;
+  std::int64_t stamp_ns = 0;
   for (double away_m = 8; away_m >= 2; away_m -= 0.3) {
     const Eigen::Vector2d vehicle_m(kBush_x_m - away_m, kBush_y_m);
     place_bush(map, afar);
@@ -33,7 +34,7 @@ std::uint8_t flags_beside(std::uint8_t afar, std::uint8_t near) {
       return disc(kBush_x_m, kBush_y_m, 0.9)(x, y) && disc(vehicle_m.x(), vehicle_m.y(), 2.8)(x, y);
     };
     map.where(turned, [&](std::size_t i) { map.flags[i] = near; });
-    view = soft.soften(map.view(), vehicle_m);
+    view = soft.soften(map.view(++stamp_ns), vehicle_m);
   }
   return view.flags[map.cells().index_of(kBush_x_m, kBush_y_m)];
 }
@@ -49,9 +50,10 @@ TEST_CASE("what became hard before it was near is hard, and so is what was never
   SmallMap map(64);
   SoftPlaces soft(64, 3);
   const int middle = map.cells().index_of(kBush_x_m, kBush_y_m);
+  std::int64_t stamp_ns = 0;
   const auto look = [&](std::uint8_t flag, double away_m) {
     place_bush(map, flag);
-    return soft.soften(map.view(), {kBush_x_m - away_m, kBush_y_m}).flags[middle];
+    return soft.soften(map.view(++stamp_ns), {kBush_x_m - away_m, kBush_y_m}).flags[middle];
   };
   for (int i = 0; i < SoftPlaces::kSure; ++i) look(kSoft, 6);
   look(kHard, 5);
@@ -62,16 +64,26 @@ TEST_CASE("what became hard before it was near is hard, and so is what was never
   CHECK(look(kHard, 2) == kHard);
 }
 
+TEST_CASE("a map that is looked at again counts once") {
+  SmallMap map(64);
+  SoftPlaces soft(64, 3);
+  place_bush(map, kSoft);
+  for (int i = 0; i < 2 * SoftPlaces::kSure; ++i) soft.soften(map.view(1), {kBush_x_m - 6, kBush_y_m});
+  place_bush(map, kHard);
+  const planner::MapView view = soft.soften(map.view(2), {kBush_x_m - 2, kBush_y_m});
+  CHECK(view.flags[map.cells().index_of(kBush_x_m, kBush_y_m)] == kHard);
+}
+
 TEST_CASE("what was soft is known by its place when the map moves on") {
   SoftPlaces soft(64, 3);
   for (int i = 0; i < SoftPlaces::kSure; ++i) {
     SmallMap before(64);
     place_bush(before, kSoft);
-    soft.soften(before.view(), {kBush_x_m - 6, kBush_y_m});
+    soft.soften(before.view(i), {kBush_x_m - 6, kBush_y_m});
   }
   SmallMap after(64, 2.4, -1.6);
   place_bush(after, kHard);
-  const planner::MapView view = soft.soften(after.view(), {kBush_x_m - 2, kBush_y_m});
+  const planner::MapView view = soft.soften(after.view(SoftPlaces::kSure), {kBush_x_m - 2, kBush_y_m});
   CHECK(view.flags[after.cells().index_of(kBush_x_m, kBush_y_m)] == kSoft);
 }
 

@@ -37,6 +37,7 @@ TEST_CASE("what is no place is named with its line") {
   CHECK(error_of("x,y\nx,y\n") == ":2: expected x_m,y_m, found 'x,y'");
   CHECK(error_of("1,\n") == ":1: expected x_m,y_m, found '1,'");
   CHECK(error_of("nan,1\n") == ":1: a place within 10,000 km expected, found 'nan,1'");
+  CHECK(error_of("1,nan\n") == ":1: a place within 10,000 km expected, found '1,nan'");
   CHECK(error_of("1,2e7\n") == ":1: a place within 10,000 km expected, found '1,2e7'");
   CHECK(error_of("1,1\n2,2\n3,3\n", 2) == ":3: more than 2 places");
   CHECK(error_of("x_m,y_m\n") == ": no place in it");

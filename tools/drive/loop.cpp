@@ -11,8 +11,7 @@ namespace {
 
 constexpr std::int64_t kStep_ns = 10'000'000;
 constexpr int kStepsPerTurn = 10;
-constexpr double kFastest_mps = 40;  // no vehicle is; odometry that jumps is not simulated
-constexpr int kStepsBefore = 15;     // of odometry before the start: sweeps begin up to a turn earlier
+constexpr int kStepsBefore = 15;  // of odometry before the start: sweeps begin up to a turn earlier
 
 /// The lidar whose sweep ends first is the first.
 std::vector<std::size_t> order_of(const std::vector<sim::LidarModel>& lidars) {
@@ -40,7 +39,7 @@ Loop::Loop(const sim::World& world, const TrueObstacles& obstacles, const Rig& r
       vehicle_(world.terrain(), rig.model, start),
       watch_(world, rig.model),
       errors_(options.odometry_noise, kSteps_hz, options.seed),
-      motion_(kFastest_mps),
+      motion_(services::OdometryConfig{}),
       lidars_(make_lidars(rig, options.seed)),
       order_(order_of(lidars_)),
       sweeps_(lidars_.size()),

@@ -56,7 +56,7 @@ tl::expected<std::vector<Eigen::Vector2d>, std::string> read_course(const std::s
     if (title) continue;
     const auto place = place_of(lines.text());
     if (!place) return tl::unexpected(lines.where() + "expected x_m,y_m, found '" + lines.text() + "'");
-    if (!(place->cwiseAbs().maxCoeff() <= kFarthest_m))
+    if (!place->allFinite() || place->cwiseAbs().maxCoeff() > kFarthest_m)
       return tl::unexpected(lines.where() + "a place within 10,000 km expected, found '" + lines.text() +
                             "'");
     if (course.size() == most)

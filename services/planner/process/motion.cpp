@@ -3,16 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "services/planner/arc.hpp"
+
 namespace gvom::planner {
 namespace {
 
-constexpr double kJump_m = 0.5;      // less is no jump, however quick
 constexpr double kCurves_mps = 0.2;  // slower, curvature is noise
-
-bool is_pose(const Pose& pose) {
-  return pose.translation_m.allFinite() && pose.rotation.coeffs().allFinite() &&
-         std::abs(pose.rotation.norm() - 1.0) < 0.01;
-}
 
 }  // namespace
 
@@ -21,18 +17,16 @@ const StampedPose& MotionEstimate::at(std::size_t back) const {
 }
 
 MotionNews MotionEstimate::take(const StampedPose& pose, std::uint64_t epoch) {
-  if (!is_pose(pose.T_odom_base)) return MotionNews::not_a_pose;
+  using services::PoseStep;
+  if (!OdometryBuffer::is_usable(pose.T_odom_base)) return MotionNews::not_a_pose;
   if (taken_ != 0 && epoch < epoch_) return MotionNews::old_epoch;
+  const bool newer = taken_ != 0 && epoch != epoch_;
+  if (newer) judge_.begin_anew();
+  const PoseStep step = judge_.judge(pose).step;
+  if (step == PoseStep::backwards) return MotionNews::backwards;
   MotionNews news = MotionNews::used;
-  if (taken_ != 0 && epoch == epoch_) {
-    const std::int64_t passed_ns = pose.stamp_ns - at(0).stamp_ns;
-    if (passed_ns <= 0) return MotionNews::backwards;
-    const double way_m = (pose.T_odom_base.translation_m - at(0).T_odom_base.translation_m).norm();
-    if (way_m > kJump_m && way_m > max_speed_mps_ * 1e-9 * static_cast<double>(passed_ns))
-      news = MotionNews::jump;
-  } else if (taken_ != 0) {
-    news = MotionNews::anew;
-  }
+  if (step == PoseStep::jump) news = MotionNews::jump;
+  if (newer || step == PoseStep::anew) news = MotionNews::anew;
   if (news != MotionNews::used) taken_ = 0;
   epoch_ = epoch;
   poses_[taken_++ % kPoses] = pose;
@@ -58,6 +52,18 @@ std::optional<State> MotionEstimate::state() const {
   state.speed_mps = way.dot(Eigen::Vector2d(std::cos(middle), std::sin(middle))) / passed_s;
   if (std::abs(state.speed_mps) > kCurves_mps)
     state.curvature_per_m = turned_rad / passed_s / state.speed_mps;
+  return state;
+}
+
+std::optional<State> MotionEstimate::state_after(std::int64_t passed_ns) const {
+  std::optional<State> state = this->state();
+  if (!state) return state;
+  const double way_m = state->speed_mps * 1e-9 * static_cast<double>(passed_ns);
+  const Pose2 before = flat(state->T_odom_base), after = moved(before, way_m, state->curvature_per_m);
+  Pose& pose = state->T_odom_base;
+  pose.translation_m.head<2>() = after.place();
+  pose.rotation = Eigen::AngleAxisd(after.yaw_rad - before.yaw_rad, Eigen::Vector3d::UnitZ()) * pose.rotation;
+  state->stamp_ns += passed_ns;
   return state;
 }
 

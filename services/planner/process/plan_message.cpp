@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <utility>
 
 namespace gvom::planner {
 namespace {
@@ -40,14 +39,6 @@ void fill(const Plan& plan, ipc::Plan& message) {
     const TrajectoryPoint& point = plan.trajectory[i];
     message.trajectory[i] = point_of(point.pose, point.z_m, point.curvature_per_m, point.speed_mps);
   }
-}
-
-Plan standing(Reason reason, std::string why) {
-  Plan plan;
-  plan.mode = Mode::stop;
-  plan.reason = reason;
-  plan.why = std::move(why);
-  return plan;
 }
 
 }  // namespace gvom::planner

@@ -15,10 +15,11 @@ namespace {
 
 constexpr std::int64_t kOdometrySilence_ns = 300'000'000;  // older poses say nothing of where it is now
 constexpr double kDeadlineCycles = 2.5;  // a command holds for so many: one that is late is made up for
-constexpr std::int64_t kStep_ns = 1'000'000'000;
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
+constexpr std::int64_t kAhead_ns = kSecond_ns / 2;  // layers are no newer than the odometry that placed them
 
 std::int64_t period_ns(const PlannerConfig& config) {
-  return static_cast<std::int64_t>(kStep_ns / config.rate_hz);
+  return static_cast<std::int64_t>(kSecond_ns / config.rate_hz);
 }
 
 double seconds(std::int64_t time_ns) {
@@ -35,12 +36,6 @@ MapView view_of(const ipc::LayersSample& layers) {
 /// Nothing is wrong with a stand for that.
 bool stands_as_wanted(Reason reason) {
   return reason == Reason::no_course || reason == Reason::near_goal || reason == Reason::mover;
-}
-
-std::string words(const char* format, double value) {
-  char text[96];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
 }
 
 }  // namespace
@@ -72,7 +67,7 @@ PlannerNode::PlannerNode(const services::VehicleConfig& config, ipc::Runtime& ru
       health_(runtime.name(), services::config_hash(config, runtime.name())),
       cycle_stage_(health_.stage("cycle")),
       planner_(config.planner, config.mapper.map.size_xy),
-      motion_(config.odometry.max_speed_mps),
+      motion_(config.odometry),
       sides_(sides_of(config.lidars)),
       message_(std::make_unique<ipc::Plan>()) {
   const std::pair<const char*, const std::uint64_t*> rows[] = {{"cycles", &counts_.cycles},
@@ -85,7 +80,6 @@ PlannerNode::PlannerNode(const services::VehicleConfig& config, ipc::Runtime& ru
                                                                {"odometry_jumps", &counts_.odometry_jumps},
                                                                {"drop_no_chunk", &counts_.without_chunk}};
   for (const auto& [name, value] : rows) counters_.emplace_back(&health_.counter(name), value);
-  standing_.why.reserve(128);
   if (!course.empty()) follow(course);
   bus_.waiter.add(bus_.course);
   lifecycle_.on_stop([this] { bus_.waiter.wake(); });
@@ -100,19 +94,18 @@ services::ExitCode PlannerNode::run() {
   std::int64_t next_ns = ipc::monotonic_ns();
   while (!lifecycle_.stopping()) {
     const std::int64_t now_ns = ipc::monotonic_ns();
+    take_course();
     if (now_ns < next_ns) {
       bus_.waiter.wait(std::chrono::milliseconds((next_ns - now_ns) / 1'000'000 + 1));
-      take_course();
       continue;
     }
     next_ns = std::max(next_ns + period_ns(config_.planner), now_ns);
-    cycle();
+    cycle(now_ns);
     publish_health();
   }
   services::notify_stopping();
   health_.set_state(ipc::HealthState::stopping);
-  standing_ = standing(Reason::no_course, "the planner stops");
-  command(standing_);
+  command(planner_.stand(Reason::no_course, "the planner stops"));
   spdlog::info("{} cycles, {} of them overran", counts_.cycles, counts_.overruns);
   broker_.leave_if_gone();
   return services::ExitCode::ok;
@@ -166,8 +159,7 @@ void PlannerNode::take_layers() {
   layers_ = std::move(*newest);
 }
 
-void PlannerNode::cycle() {
-  const std::int64_t begun_ns = ipc::monotonic_ns();
+void PlannerNode::cycle(std::int64_t begun_ns) {
   take_odometry();
   take_layers();
   const Plan& plan = decide(begun_ns);
@@ -183,26 +175,30 @@ void PlannerNode::cycle() {
 }
 
 const Plan& PlannerNode::decide(std::int64_t now_ns) {
-  const auto state = motion_.state();
-  if (!state || now_ns - odometry_ns_ > kOdometrySilence_ns) {
-    standing_ =
-        standing(Reason::no_odometry, state ? words("no odometry for %.1f s", seconds(now_ns - odometry_ns_))
-                                            : std::string("no odometry yet"));
-    return standing_;
+  const std::int64_t silent_ns = std::max<std::int64_t>(now_ns - odometry_ns_, 0);
+  const auto state = motion_.state_after(silent_ns);
+  if (!state) return planner_.stand(Reason::no_odometry, "no odometry yet");
+  if (silent_ns > kOdometrySilence_ns) {
+    char why[64];
+    std::snprintf(why, sizeof why, "no odometry for %.1f s", seconds(silent_ns));
+    return planner_.stand(Reason::no_odometry, why);
   }
+  Senses senses = look();
   if (took_ns_ > period_ns(config_.planner)) {
     ++counts_.overruns;
-    standing_ =
-        standing(Reason::overrun, words("the last cycle took %.0f ms", 1e-6 * static_cast<double>(took_ns_)));
-    return standing_;
+    senses.overrun_s = seconds(took_ns_);
   }
-  const bool before_jump = layers_ && (layers_->header().header.epoch != motion_.epoch() ||
-                                       layers_->header().header.stamp_ns < jump_stamp_ns_);
-  const bool usable = layers_ && !before_jump;
+  const bool usable = layers_ && layers_fit(*state);
   const MapView view = usable ? view_of(*layers_) : MapView{};
-  const Plan& plan = planner_.cycle(usable ? &view : nullptr, *state, look());
+  const Plan& plan = planner_.cycle(usable ? &view : nullptr, *state, senses);
   jumped_ = false;
   return plan;
+}
+
+bool PlannerNode::layers_fit(const State& state) const {
+  const ipc::MessageHeader& header = layers_->header().header;
+  return header.epoch == motion_.epoch() && header.stamp_ns >= jump_stamp_ns_ &&
+         header.stamp_ns <= state.stamp_ns + kAhead_ns;
 }
 
 Senses PlannerNode::look() const {

@@ -58,9 +58,11 @@ class PlannerNode {
   void take_course();
   void follow(std::vector<Eigen::Vector2d> course);
   void take_layers();
-  void cycle();
+  void cycle(std::int64_t begun_ns);
   /// What to do now. Valid until the next call.
   const Plan& decide(std::int64_t now_ns);
+  /// Whether the layers are of this motion: neither from before a jump, nor by a clock that was set back.
+  [[nodiscard]] bool layers_fit(const State& state) const;
   [[nodiscard]] Senses look() const;
   void publish(const Plan& plan, std::int64_t begun_ns);
   void command(const Plan& plan);
@@ -82,7 +84,6 @@ class PlannerNode {
   Sides sides_;
   std::vector<Eigen::Vector2d> course_;
   std::optional<ipc::LayersSample> layers_;
-  Plan standing_;                       // where there is nothing to plan with
   std::int64_t odometry_ns_ = 0;        // when the newest pose came
   bool jumped_ = false;                 // since the last cycle
   std::int64_t jump_stamp_ns_ = 0;      // layers from before it are not driven by

@@ -1,6 +1,6 @@
-#include "services/ingest/pose_judge.hpp"
+#include "services/common/pose_judge.hpp"
 
-namespace gvom::ingest {
+namespace gvom::services {
 
 namespace {
 
@@ -48,4 +48,4 @@ PoseJudge::Verdict PoseJudge::judge(const StampedPose& pose) {
   return verdict;
 }
 
-}  // namespace gvom::ingest
+}  // namespace gvom::services

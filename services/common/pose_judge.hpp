@@ -6,7 +6,7 @@
 #include "core/odometry_buffer.hpp"
 #include "services/common/vehicle_config.hpp"
 
-namespace gvom::ingest {
+namespace gvom::services {
 
 /// How a pose goes on from the one before.
 enum class PoseStep {
@@ -21,7 +21,7 @@ enum class PoseStep {
 /// Live and recorded poses alike.
 class PoseJudge {
  public:
-  explicit PoseJudge(const services::OdometryConfig& config)
+  explicit PoseJudge(const OdometryConfig& config)
       : max_gap_s_(config.max_gap_s), max_speed_mps_(config.max_speed_mps) {}
 
   struct Verdict {
@@ -44,4 +44,4 @@ class PoseJudge {
   int backwards_ = 0;  // poses in a row that went back in time
 };
 
-}  // namespace gvom::ingest
+}  // namespace gvom::services
