@@ -130,6 +130,7 @@ TEST_CASE("a file of rows goes on, forgets a line that was cut, and refuses anot
   CHECK_FALSE(RowsFile::open(path, {kMaking.options + " --ablation one-lidar", kMaking.vehicle}));
   std::ofstream(folder.path() + "/other.csv") << "x\n";
   CHECK_FALSE(RowsFile::open(folder.path() + "/other.csv", kMaking));
+  CHECK_FALSE(RowsFile::open(folder.path() + "/other.csv/rows.csv", kMaking));
 }
 
 TEST_CASE("the hash of a vehicle's file is FNV-1a") {

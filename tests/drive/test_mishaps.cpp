@@ -110,6 +110,32 @@ TEST_CASE("it tips over where its centre of mass leaves the wheels' track") {
   check(driven, Accident::tipped, 11, 0.1);
 }
 
+TEST_CASE("it tips over in a bend that is too tight for its speed, sooner on a slope that leans outwards") {
+  // Half the track of 1.1 m over a centre of mass 1.5 m high: 3.6 m/s2. The slope of 0.1 takes 1 m/s2 of it.
+  const auto tips = [](double lateral_mps2, double slope) {
+    const sim::World world(shaped_world([&](double, double y) { return slope * y; }));
+    VehicleModel model = small_vehicle();
+    model.centre_of_mass_m = 1.5;
+    model.turn_slip = model.side_slip = model.climb_slip = 0;
+    Vehicle vehicle(world.terrain(), model, {0, 0, 0});
+    Watch watch(world, model);
+    std::optional<Mishap> mishap;
+    const double speed_mps = 3;
+    while (!mishap && vehicle.time_s() < 3.5) {  // it drives 7 m, and turns a little
+      const bool fast = vehicle.state().speed_mps > 0.95 * speed_mps;
+      vehicle.command(vehicle.time_s(), {speed_mps, fast ? lateral_mps2 / (speed_mps * speed_mps) : 0});
+      vehicle.step();
+      mishap = watch.look(vehicle);
+    }
+    return mishap && mishap->what == Accident::tipped;
+  };
+  CHECK_FALSE(tips(3.2, 0));
+  CHECK(tips(4.0, 0));
+  CHECK(tips(-4.0, 0));
+  CHECK(tips(3.2, 0.1));  // to the left, the left side up
+  CHECK_FALSE(tips(-3.2, 0.1));
+}
+
 TEST_CASE("it high-centres on what is higher than its clearance between the wheels") {
   const auto ridge = [](double height_m) {
     sim::WorldData data = level_world();

@@ -24,7 +24,7 @@ start_bridge() {
   local recorded="$out/mcap"
   rm -rf "$recorded"
   if [[ -n $looped ]]; then recorded=''; fi
-  start gvom-bridge nice -n 10 "$bin/gvom-bridge" "${config[@]}" --set "bridge.mcap.folder='$recorded'"
+  start gvom-bridge nice -n 10 "$bin/gvom-bridge" "${config[@]}" --set "bridge.mcap.folder='$recorded'" --set bridge.mcap.split_mb=1048576
   echo "demo: to watch it: $page (Foxglove: ws://127.0.0.1:8765)"
 }
 

@@ -27,9 +27,9 @@ demonstrate() {
   local code=0
   await_end gvom-drive || code=$?
   stop_graph
-  keep_recorded
   printf '\n=== the drive\n'
-  grep -v '^[0-9][0-9]:' "$logs/gvom-drive.log"
+  grep -v '^[0-9][0-9]:' "$logs/gvom-drive.log" || echo "it said nothing: $logs/gvom-drive.log"
+  keep_recorded
   cat <<END
 
 === what to look at

@@ -16,6 +16,18 @@ Mishap mishap_of(const Vehicle& vehicle, Accident what) {
   return {what, vehicle.time_s(), vehicle.T_odom_base().translation_m, vehicle.state().speed_mps};
 }
 
+/// About the outer wheels: by its weight on a slope, and by what pulls it outwards in a bend.
+bool tips(const Vehicle& vehicle) {
+  const VehicleModel& model = vehicle.model();
+  const VehicleState& state = vehicle.state();
+  const double roll_rad = vehicle.stance().roll_rad;
+  const double right_mps2 = state.speed_mps * state.speed_mps * state.curvature_per_m;
+  const double across_mps2 = kGravity_mps2 * std::sin(roll_rad) + right_mps2 * std::cos(roll_rad);
+  const double down_mps2 = kGravity_mps2 * std::cos(roll_rad) - right_mps2 * std::sin(roll_rad);
+  return std::abs(across_mps2) * model.centre_of_mass_m > 0.5 * model.limits.track_m * down_mps2 ||
+         std::abs(vehicle.stance().pitch_rad) > model.tip_pitch_rad();
+}
+
 }  // namespace
 
 const char* words_of(sim::ObjectClass what) {
@@ -62,9 +74,7 @@ std::optional<Mishap> Watch::look(const Vehicle& vehicle) {
     return mishap_of(vehicle, Accident::left_world);
   if (const auto wheels = look_at_wheels(vehicle)) return wheels;
   const Stance& stance = vehicle.stance();
-  if (std::abs(stance.roll_rad) > model_.tip_roll_rad() ||
-      std::abs(stance.pitch_rad) > model_.tip_pitch_rad())
-    return mishap_of(vehicle, Accident::tipped);
+  if (tips(vehicle)) return mishap_of(vehicle, Accident::tipped);
   if (belly_ground_m(world_.terrain(), model_, place, stance) > model_.limits.ground_clearance_m)
     return mishap_of(vehicle, Accident::high_centred);
   return look_at_things(vehicle);

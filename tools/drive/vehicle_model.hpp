@@ -24,8 +24,7 @@ struct VehicleModel {
   double side_slip = 0.1;           ///< Of its speed it slides down across a slope, times the slope's sine.
   double grip = 0.6;                ///< Of wheels on the ground: force over weight.
 
-  /// Beyond these it tips over when it stands still.
-  [[nodiscard]] double tip_roll_rad() const { return std::atan(0.5 * limits.track_m / centre_of_mass_m); }
+  /// Beyond it, it tips over its front or rear axle.
   [[nodiscard]] double tip_pitch_rad() const {
     return std::atan(0.5 * (limits.front_axle_m + limits.rear_axle_m) / centre_of_mass_m);
   }

@@ -6,14 +6,16 @@ namespace gvom::driving {
 
 DriveFile::DriveFile(const std::string& folder, const std::string& world, std::uint64_t seed) {
   if (folder.empty()) return;
-  std::filesystem::create_directories(folder);
-  file_.open(folder + "/" + world + "-" + std::to_string(seed) + ".csv");
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  path_ = folder + "/" + world + "-" + std::to_string(seed) + ".csv";
+  file_.open(path_);
   file_ << "time_s,x_m,y_m,speed_mps,curvature_per_m,mode,command_mps,command_per_m,waypoint,cost_to_go,seen_"
            "m,why\n";
 }
 
 Onlooker DriveFile::onlooker() {
-  if (!file_.is_open()) return {};
+  if (path_.empty()) return {};
   return [this](const Seen& seen, const planner::Plan& plan) { write(seen, plan); };
 }
 
@@ -23,7 +25,15 @@ void DriveFile::write(const Seen& seen, const planner::Plan& plan) {
   file_ << time_s << ',' << state.T_odom_base.translation_m.x() << ',' << state.T_odom_base.translation_m.y()
         << ',' << state.speed_mps << ',' << state.curvature_per_m << ',' << static_cast<int>(plan.mode) << ','
         << plan.command.speed_mps << ',' << plan.command.curvature_per_m << ',' << plan.waypoint << ','
-        << plan.cost_to_go << ',' << plan.seen_m << ",\"" << plan.why << "\"\n";
+        << plan.cost_to_go << ',' << plan.seen_m << ",\"" << plan.why << "\"\n"
+        << std::flush;
+}
+
+tl::expected<void, std::string> DriveFile::close() {
+  if (path_.empty()) return {};
+  file_.close();
+  if (!file_) return tl::unexpected(path_ + ": cannot be written");
+  return {};
 }
 
 }  // namespace gvom::driving

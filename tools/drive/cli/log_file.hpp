@@ -5,6 +5,8 @@
 #include <fstream>
 #include <string>
 
+#include <tl/expected.hpp>
+
 #include "tools/drive/cli/session.hpp"
 
 namespace gvom::driving {
@@ -14,12 +16,15 @@ class DriveFile {
  public:
   DriveFile(const std::string& folder, const std::string& world, std::uint64_t seed);
 
-  /// Writes. Valid while this lives.
+  /// Writes; a line is in the file when it returns. Valid while this lives.
   [[nodiscard]] Onlooker onlooker();
+  /// The error names the file if any line of it could not be written.
+  tl::expected<void, std::string> close();
 
  private:
   void write(const Seen& seen, const planner::Plan& plan);
 
+  std::string path_;  // empty: none
   std::ofstream file_;
 };
 

@@ -48,12 +48,13 @@ int drive_all(const services::VehicleConfig& config, driving::CampaignOptions op
     file = std::move(*opened);
     options.driven = file->seeds();
   }
+  bool written = true;
   const auto rows = driving::run_campaign(config, options, [&](const driving::Row& row) {
     std::fprintf(stderr, "%s\n", driving::line_of(row).c_str());
-    if (file && !file->append(driving::figures_of(row.world, row.seed, row.result)))
-      std::fprintf(stderr, "gvom-drive: %s cannot be written\n", rows_path.c_str());
+    if (file) written = file->append(driving::figures_of(row.world, row.seed, row.result));
   });
   if (!rows) return fail(ExitCode::unavailable, rows.error());
+  if (!written) return fail(ExitCode::unavailable, rows_path + ": rows are missing, it could not be written");
   if (!file) return std::fputs(driving::table_of(*rows).c_str(), stdout), 0;
   std::fputs(driving::text_of(driving::summary_of(file->figures())).c_str(), stdout);
   return 0;
@@ -148,6 +149,8 @@ int main(int argc, char** argv) {
   options.keeping.strips = *wanted;
   if (!driving::read_seeds(seeds, options))
     return fail(ExitCode::usage, "--seeds: expected N or FIRST..LAST");
+  if (live && (figures || !rows_path.empty() || options.ablation != driving::Ablation::none))
+    return fail(ExitCode::usage, "--real-time drives one world as it is: no --figures, --rows or --ablation");
   if (figures) return drive_course(*config, options);
   if (live) {
     services::Lifecycle lifecycle;  // in lock-step a signal ends it at once

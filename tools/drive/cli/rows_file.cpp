@@ -70,9 +70,10 @@ tl::expected<RowsFile, std::string> RowsFile::open(const std::string& path, cons
   const fs::path folder = fs::path(path).parent_path();
   std::error_code error;
   if (!folder.empty()) fs::create_directories(folder, error);
-  std::string text = whole_lines(bytes_of(path));
+  const std::string bytes = bytes_of(path), text = whole_lines(bytes);
   if (text.empty()) {
-    text = head_of(making);
+    if (!(std::ofstream(path, std::ios::binary) << head_of(making) << std::flush))
+      return tl::unexpected(path + " cannot be written");
   } else {
     auto rows = read_rows(path);
     if (!rows) return tl::unexpected(rows.error());
@@ -80,9 +81,9 @@ tl::expected<RowsFile, std::string> RowsFile::open(const std::string& path, cons
       return tl::unexpected(path + " was made by " + rows->making.options + " with a vehicle file " +
                             rows->making.vehicle + ", not by " + making.options + " with " + making.vehicle);
     file.figures_ = std::move(rows->figures);
+    if (text.size() != bytes.size()) fs::resize_file(path, text.size(), error);
+    if (error) return tl::unexpected(path + ": " + error.message());
   }
-  if (!(std::ofstream(path, std::ios::binary) << text << std::flush))
-    return tl::unexpected(path + " cannot be written");
   return file;
 }
 
@@ -94,7 +95,8 @@ std::set<std::uint64_t> RowsFile::seeds() const {
 
 bool RowsFile::append(const Figures& figures) {
   figures_.push_back(figures);
-  return static_cast<bool>(std::ofstream(path_, std::ios::app) << line_of(figures) + "\n" << std::flush);
+  whole_ = whole_ && std::ofstream(path_, std::ios::app) << line_of(figures) + "\n" << std::flush;
+  return whole_;
 }
 
 }  // namespace gvom::driving

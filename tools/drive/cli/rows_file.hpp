@@ -40,7 +40,7 @@ class RowsFile {
 
   [[nodiscard]] std::set<std::uint64_t> seeds() const;
   [[nodiscard]] const std::vector<Figures>& figures() const { return figures_; }
-  /// False: it could not be written.
+  /// False: it could not be written, nor can any after it: a line may be cut there.
   bool append(const Figures& figures);
 
  private:
@@ -48,6 +48,7 @@ class RowsFile {
 
   std::string path_;
   std::vector<Figures> figures_;
+  bool whole_ = true;
 };
 
 }  // namespace gvom::driving

@@ -121,7 +121,8 @@ double most_seconds(const SessionOptions& options, const std::optional<TrueWay>&
 
 std::optional<TrueWay> true_way(const sim::GroundTruth& truth, const CourseWorld& course,
                                 const planner::PlannerConfig& planning) {
-  return TruthPlanner(truth, {planning.vehicle.width_m, planning.speed_mps, planning.goal_tolerance_m})
+  const double speed_mps = std::min(planning.speed_mps, planning.vehicle.max_speed_mps);
+  return TruthPlanner(truth, {planning.vehicle.width_m, speed_mps, planning.goal_tolerance_m})
       .plan(course.start.place(), course.waypoints_m);
 }
 

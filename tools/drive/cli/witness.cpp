@@ -51,6 +51,7 @@ Onlooker Witness::onlooker() {
 
 tl::expected<void, std::string> Witness::finish(Outcome outcome, const std::string& words) {
   const bool failed = outcome != Outcome::arrived;
+  if (const auto closed = file_.close(); !closed) return closed;
   if (mcap_ && !*mcap_) return tl::unexpected(mcap_->error());
   if (mcap_)
     if (const auto closed = (*mcap_)->close(); !closed) return closed;

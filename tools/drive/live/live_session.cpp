@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/column_grid.hpp"
+#include "ipc/clock.hpp"
 #include "services/ingest/udp_ports.hpp"
 #include "tools/drive/live/messages.hpp"
 
@@ -60,11 +61,14 @@ tl::expected<void, std::string> write_metadata(const services::VehicleConfig& co
 
 LiveSession::LiveSession(const CourseWorld& course, const sim::World& world, const TrueObstacles& obstacles,
                          const services::VehicleConfig& config, const SessionOptions& options, LiveBus bus)
-    : course_(course), obstacles_(obstacles), bus_(std::move(bus)), shown_(config.mapper.map) {
-  begin_ = std::chrono::steady_clock::now();
-  vehicle_ = std::make_unique<LiveVehicle>(world, rig_of(config, options.sensor).model, course.start,
-                                           options.odometry_noise, options.seed, std::move(bus_.vehicle));
-}
+    : course_(course),
+      obstacles_(obstacles),
+      bus_(std::move(bus)),
+      begin_(std::chrono::steady_clock::now()),
+      vehicle_(std::make_unique<LiveVehicle>(world, rig_of(config, options.sensor).model, course.start,
+                                             options.odometry_noise, options.seed, std::move(bus_.vehicle))),
+      talk_(course.waypoints_m, vehicle_->epoch(), config.planner.max_age_s),
+      shown_(config.mapper.map) {}
 
 tl::expected<std::unique_ptr<LiveSession>, std::string> LiveSession::start(
     const CourseWorld& course, const sim::World& world, const TrueObstacles& obstacles,
@@ -102,23 +106,28 @@ bool LiveSession::step(double most_s, const Onlooker& onlooker) {
 void LiveSession::take_plans(const Onlooker& onlooker) {
   while (const auto sample = bus_.plan.take()) {
     const ipc::Plan& message = **sample;
+    const bool is_sent = course_sent_s_ >= 0;
+    if (is_sent && !talk_.is_of_course(message)) continue;
     plan_ = plan_of(message);
     layers_age_s_ = message.layers_age_s;
-    if (course_sent_s_ < 0 && std::isfinite(message.layers_age_s)) send_course();
-    if (message.waypoints == 0) continue;  // it does not have the course yet
+    if (!is_sent && talk_.is_ready(message)) send_course();
+    if (!is_sent) continue;
     result_.cycle_ms.push_back(1e-6 * static_cast<double>(message.mono_published_ns - message.mono_begun_ns));
     if (onlooker) show(onlooker);
   }
 }
 
 void LiveSession::show(const Onlooker& onlooker) {
-  const auto layers = bus_.layers.take_newest();
-  if (!layers) return;
-  copy(*layers, shown_.arrays());
+  if (const auto layers = bus_.layers.take_newest()) {
+    copy(*layers, shown_.arrays());
+    shown_grid_ = layers->header().grid;
+    shown_stamp_ns_ = layers->header().header.stamp_ns;
+  }
+  if (!shown_stamp_ns_) return;
   const VehicleState& state = vehicle_->vehicle().state();
   onlooker({shown_.arrays(),
-            layers->header().grid,
-            layers->header().header.stamp_ns,
+            shown_grid_,
+            *shown_stamp_ns_,
             layers_age_s_,
             {vehicle_->odometry().stamp_ns, vehicle_->odometry().T_odom_base, state.speed_mps,
              state.curvature_per_m}},
@@ -127,7 +136,10 @@ void LiveSession::show(const Onlooker& onlooker) {
 
 void LiveSession::send_course() {
   static_cast<void>(bus_.course.publish(course_message(course_.waypoints_m), sim::kStartNs, 0));
+  talk_.sent(ipc::monotonic_ns());
   course_sent_s_ = vehicle_->vehicle().time_s();
+  plan_ = {};
+  plan_.why = "the planner does not plan by the course that it was sent";
 }
 
 void LiveSession::write_step() {

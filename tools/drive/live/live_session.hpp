@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "ipc/layers.hpp"
 #include "services/common/lifecycle.hpp"
 #include "tools/drive/cli/session.hpp"
+#include "tools/drive/live/course_talk.hpp"
 #include "tools/drive/live/lidar_stream.hpp"
 #include "tools/drive/live/live_vehicle.hpp"
 
@@ -32,7 +34,8 @@ tl::expected<void, std::string> write_metadata(const services::VehicleConfig& co
                                                const SessionOptions& options, const std::string& folder);
 
 /// The session is over when the planner says so and the vehicle stands, at a mishap, or when it has taken too
-/// long. Its time counts from the course on: that is sent once the planner plans by layers.
+/// long. Its time counts from the course on: that is sent once the planner plans by layers that are fresh.
+/// What the planner says of an earlier course does not count.
 class LiveSession {
  public:
   /// Opens sockets and starts the lidars. All references outlive it. Errors: a lidar without
@@ -70,7 +73,10 @@ class LiveSession {
   std::chrono::steady_clock::time_point begin_;
   std::unique_ptr<LiveVehicle> vehicle_;
   std::vector<std::unique_ptr<LidarStream>> streams_;
+  CourseTalk talk_;
   mapping::LayerStorage shown_;
+  Grid shown_grid_;
+  std::optional<std::int64_t> shown_stamp_ns_;  // of the layers; nothing: none came yet
   planner::Plan plan_;
   double layers_age_s_ = 0;
   double course_sent_s_ = -1;

@@ -44,6 +44,8 @@ class LiveVehicle : public sim::Motion {
   [[nodiscard]] const std::optional<planner::Command>& command() const { return command_; }
   /// The newest pose as odometry says it.
   [[nodiscard]] const StampedPose& odometry() const { return said_; }
+  /// Of its odometry.
+  [[nodiscard]] std::uint64_t epoch() const { return epoch_; }
   /// How often it had to brake by itself, at speed.
   [[nodiscard]] std::uint64_t deadlines_passed() const { return deadlines_passed_; }
 
