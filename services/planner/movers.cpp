@@ -13,7 +13,8 @@ constexpr double kStraight = 0.7;  // the cosine between a way and the one befor
 constexpr int kSure = 2;           // so often straight on
 constexpr double kWide_m = 0.8;    // a person
 constexpr double kAlone_m = 1.2;
-constexpr double kSmallest_m2 = 0.1;  // less is a blade of grass
+constexpr double kSmallest_m2 = 0.1;                  // less is a blade of grass
+constexpr std::int64_t kMostAtOnce_ns = 200'000'000;  // of waiting; between two stands it drove
 
 double seconds_of(std::int64_t ns) {
   return 1e-9 * static_cast<double>(ns);
@@ -47,6 +48,7 @@ Movers::Movers(const VehicleLimits& vehicle, int n_xy) : vehicle_(vehicle) {
 void Movers::clear() {
   taken_ = 0;
   observed_ns_.reset();
+  waited_ns_ = 0;
   tracks_.clear();
   discs_.clear();
 }
@@ -59,7 +61,14 @@ void Movers::observe(const MapView& map, const Eigen::Vector2d& vehicle_m, doubl
     follow(map);
     remember(map);
   }
+  if ((vehicle_m - waits_at_m_).norm() > kHere_m) waited_ns_ = 0;
   close_ahead(map.stamp_ns, vehicle_m, speed_mps);
+}
+
+void Movers::wait(const Eigen::Vector2d& vehicle_m, std::int64_t stamp_ns) {
+  if (waited_ns_ == 0) waits_at_m_ = vehicle_m;
+  waited_ns_ += std::clamp<std::int64_t>(stamp_ns - waits_at_ns_, 1, kMostAtOnce_ns);
+  waits_at_ns_ = stamp_ns;
 }
 
 void Movers::remember(const MapView& map) {
@@ -204,7 +213,7 @@ void Movers::close_ahead(std::int64_t stamp_ns, const Eigen::Vector2d& vehicle_m
   const double fast_mps = std::abs(speed_mps);
   const double stands_s = std::max(vehicle_.latency_s + fast_mps / vehicle_.max_decel_mps2, kLeast_s);
   for (const Track& track : tracks_) {
-    if (!track.moves) continue;
+    if (!track.moves || (!track.sure && waited_ns_ > kPatience_ns)) continue;
     const double away_m = (track.middle_m - vehicle_m).norm();
     const double seconds = std::min(away_m / std::max(fast_mps, 1e-3), stands_s);
     if (track.sure && stamp_ns - track.moved_ns > kTurns_ns) {

@@ -22,12 +22,16 @@ namespace gvom::planner {
 /// `kBack_ns` ago: with nothing else near, whatever stands there is followed. Grass that flickers gets on,
 /// too, each time another way. What is sure to move, since it got on three times straight on or stands alone
 /// and is as large as a person, may turn: when it has not got on for `kTurns_ns`, all around it is closed.
+/// What is not sure to move, and flickers on where the vehicle has waited for `kPatience_ns`, closes nothing
+/// more until it has got on.
 class Movers {
  public:
   static constexpr std::int64_t kBack_ns = 600'000'000;
   static constexpr std::int64_t kGoing_ns = 1'000'000'000;
   static constexpr std::int64_t kHold_ns = 1'200'000'000;
   static constexpr std::int64_t kTurns_ns = 500'000'000;  ///< Since it got on; then it may turn.
+  static constexpr std::int64_t kPatience_ns = 5'000'000'000;
+  static constexpr double kHere_m = 1;  ///< So far from where it waited the vehicle has got on.
   static constexpr double kMoved_m = 0.5;
   static constexpr double kRuns_mps = 3;
   static constexpr double kEdge_m = 0.4;  ///< So far the edge of what stands may flicker.
@@ -59,6 +63,10 @@ class Movers {
   [[nodiscard]] const std::vector<Disc>& discs() const { return discs_; }
   /// Whether one that is sure to move can reach the vehicle, other than from behind.
   [[nodiscard]] bool reach(const Pose2& pose) const;
+  /// Each cycle in which the vehicle stops for them.
+  void wait(const Eigen::Vector2d& vehicle_m, std::int64_t stamp_ns);
+  /// How long it has done so where it is, all together.
+  [[nodiscard]] std::int64_t waited_ns() const { return waited_ns_; }
   /// The map with flags that hold these. Borrows the map's arrays, and is valid until the next call.
   MapView close(const MapView& map);
 
@@ -121,6 +129,9 @@ class Movers {
   std::vector<Found> found_;
   std::vector<Track> tracks_;
   std::vector<Disc> discs_;
+  Eigen::Vector2d waits_at_m_ = Eigen::Vector2d::Zero();
+  std::int64_t waits_at_ns_ = 0;  ///< When it last did.
+  std::int64_t waited_ns_ = 0;
   std::vector<std::uint8_t> flags_;
 };
 

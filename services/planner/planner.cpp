@@ -10,8 +10,9 @@ namespace gvom::planner {
 namespace {
 
 constexpr double kStands_mps = 0.1;
-constexpr double kWaits_mps = 2.5;  // slower than that it lets pass who is beside it
-constexpr int kStandCycles = 3;     // what a jump of the odometry says of the speed is nothing at first
+constexpr double kWaits_mps = 2.5;                     // slower than that it lets pass who is beside it
+constexpr std::int64_t kLongWait_ns = 30'000'000'000;  // for movers: from then on it comes no nearer
+constexpr int kStandCycles = 3;  // what a jump of the odometry says of the speed is nothing at first
 constexpr std::int64_t kMostAtOnce_ns =
     1'000'000'000;  // more between two cycles is a clock's step, or a sleep
 
@@ -76,7 +77,9 @@ const Plan& Planner::Impl::cycle(const MapView* map, const State& state, const S
   bool may_progress = may_plan(map, senses);
   if (may_progress) {
     drive(*map, senses);
-    may_progress = movers_.empty() && plan_.reason != Reason::blind_side;
+    if (plan_.reason == Reason::mover) movers_.wait(now_.pose.place(), stamp_ns_);
+    may_progress =
+        (movers_.empty() || movers_.waited_ns() > kLongWait_ns) && plan_.reason != Reason::blind_side;
   }
   if (may_progress)
     watch_progress();

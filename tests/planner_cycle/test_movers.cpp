@@ -2,6 +2,7 @@
 #include "services/planner/movers.hpp"
 
 #include <catch2/catch.hpp>
+#include <optional>
 
 #include "tests/planner_cycle/loop.hpp"
 
@@ -49,13 +50,13 @@ class Walker {
   Vector2d middle_m_{0, 0};
 };
 
-/// Movers as a planner of the map sees them, from (10, 10).
+/// Movers as a planner of the map sees them.
 struct Sight {
   explicit Sight(SmallMap& a_map) : map(a_map), movers({}, a_map.cells().n) {}
 
-  void look(double speed_mps = 0) {
+  void look(double speed_mps = 0, const Vector2d& from_m = {10, 10}) {
     stamp_ns += turn_ns;
-    movers.observe(map.view(stamp_ns), {10, 10}, speed_mps);
+    movers.observe(map.view(stamp_ns), from_m, speed_mps);
   }
   /// The column (x, y) alone has this flag, of all.
   void look_at(int x, int y, std::uint8_t flag) {
@@ -166,6 +167,73 @@ TEST_CASE("beside other things only what gets on twice, straight on, moves") {
   }
   CHECK(first > 12);  // alone it is turn 10
   CHECK(first <= 18);
+}
+
+/// Turns in which the vehicle waits, of the first `kPatience_ns`, and of as many after that. Then it gets on.
+struct Waits {
+  int first = 0, then = 0, later = 0;
+};
+
+template <class Step>
+Waits waits_for(SmallMap& map, Step place_m) {
+  Sight sight(map);
+  const std::vector<std::uint8_t> others = map.flags;
+  const auto show = [&](int turn) {
+    map.flags = others;
+    const std::optional<Vector2d> at_m = place_m(turn);
+    if (at_m) map.flags[static_cast<std::size_t>(map.cells().index_of(at_m->x(), at_m->y()))] = kSoft;
+  };
+  constexpr int kTurns = Movers::kPatience_ns / kTurn_ns;
+  Waits waits;
+  for (int turn = 0, waited = 0; turn < 40 * kTurns; ++turn) {
+    show(turn);
+    sight.look();
+    if (sight.movers.empty()) continue;
+    ++(waited++ < kTurns ? waits.first : waits.then);
+    sight.movers.wait({10, 10}, sight.stamp_ns);
+  }
+  for (int turn = 0; turn < 4 * kTurns; ++turn) {
+    show(turn);
+    sight.look(0, {10, 11.5});
+    waits.later += sight.movers.empty() ? 0 : 1;
+  }
+  return waits;
+}
+
+TEST_CASE("what flickers on beside others is waited for five seconds, a walker as long as he walks") {
+  SmallMap hedged(64);
+  hedged.where(box(6, 10.7, 20, 13), [&](std::size_t i) { hedged.flags[i] = kSoft; });
+  const Waits grass = waits_for(hedged, [](int turn) -> std::optional<Vector2d> {
+    const int at = turn % 40;  // 1.6 m along it at 2 m/s, then nothing
+    if (at >= 8) return std::nullopt;
+    return Vector2d(9 + 0.2 * at, 10.2);
+  });
+  CHECK(grass.first > 40);
+  CHECK(grass.then == 0);
+  CHECK(grass.later > 0);
+  SmallMap open(64);
+  const Waits walker = waits_for(open, [](int turn) -> std::optional<Vector2d> {
+    return Vector2d(12 + std::abs(3 - 0.14 * (turn % 43)), 10.2);
+  });
+  CHECK(walker.first == 50);
+  CHECK(walker.then > 1000);
+}
+
+TEST_CASE("a vehicle that somebody never lets pass gives up") {
+  planner::PlannerConfig config;
+  config.give_up_s = 10;
+  SmallMap map(64);
+  map.obstacle([](double x, double y) { return x > 14 && x < 14.8 && std::abs(y - 12) > 1.6; });
+  Walker walker(map, kHard);
+  Loop loop(config, map, {8, 12, 0});
+  loop.planner.set_course({{22, 12}});
+  double time_s = 0;
+  const auto walks = [&](const Plan&) {
+    time_s += 0.1;
+    walker.stand_at({13.2, 12 + std::abs(2 - std::fmod(time_s, 4)) - 1});
+  };
+  CHECK_FALSE(loop.until(Mode::gave_up, 30, walks));
+  CHECK(loop.until(Mode::gave_up, 30, walks));
 }
 
 TEST_CASE("the rim of a hole that shows itself piece by piece does not move, nor does a long thing") {
