@@ -45,6 +45,14 @@ expect 65 "it's not.mcap" bag --no-bridge --bag "$(touch "it's not.mcap"; echo "
 expect 78 'no source of the vehicle' unused --bag "it's not.mcap"
 expect 64 'nowhere' none --bag nowhere
 
+echo "with odometry of somebody else, and without a page"
+for try in 1 2 3 4 5; do
+  begin "alone$try" --set 'odometry.source=' --set 'bridge.foxglove.address=' --set bridge.mcap.folder=recorded
+  kill -INT "$pid"
+  wait "$pid" || failed "with odometry of somebody else it ended with $?"
+  grep -qF 'somebody else publishes it' said || failed "it did not say that odometry is missing"
+done
+
 echo "until it is interrupted"
 begin looped --loop
 kill -INT "$pid"
