@@ -66,6 +66,20 @@ check_broken_file() {
 
 has_failed() { [[ $(systemctl is-failed "$1") == failed ]]; }
 
+# No vehicle's file asks for the bridge: who started it wants to know all the same.
+check_by_choice() {
+  cp "$vehicle" /tmp/good.yaml
+  set_key bridge '{mcap: {topics: /no/such/topic}}'
+  systemctl start gvom-bridge || true
+  eventually 10 has_failed gvom-bridge || fail "gvom-bridge runs with a topic that there is not"
+  gvomctl status > /tmp/status.log 2>&1 && fail "status is well with a bridge that failed"
+  must_say "gvom-bridge.service failed with exit code 78" /tmp/status.log
+  cp /tmp/good.yaml "$vehicle"
+  must_restart "a bridge that had failed"
+  eventually 10 are_active gvom-bridge || fail "reload does not start a bridge that had failed"
+  systemctl stop gvom-bridge
+}
+
 check_not_enabled() {
   cp "$vehicle" /tmp/good.yaml
   sed --in-place 's/^lidars:/&\n  left: {source: "ouster:front.pcap?meta=front.json", T_base_sensor: {x: 0, y: 0, z: 1, roll: 0, pitch: 0, yaw: 0}}/' "$vehicle"
@@ -98,6 +112,7 @@ must_restart "layers.min_hits" gvom-fusion
 gvomctl reload > /tmp/reload.log 2>&1 || fail "gvomctl reload without a change"
 must_say "nobody who runs is concerned" /tmp/reload.log
 check_broken_file
+check_by_choice
 check_not_enabled
 set_key window '{buffer_size: 6}'
 must_restart "window.buffer_size" "${members[@]}"

@@ -21,7 +21,9 @@ using services::ExitCode;
 
 constexpr char kRestart[] = "TryRestartUnit";
 constexpr std::chrono::milliseconds kStep{50};
-constexpr std::chrono::seconds kPatience{3};  // a Health comes once a second
+constexpr std::chrono::seconds kPatience{3};
+// A Health comes once a second, and who runs without being asked for is heard by then.
+constexpr std::chrono::milliseconds kLeast{1500};
 
 struct Step {
   const char* method;
@@ -36,11 +38,13 @@ bool are_all_heard(const BusWatch& watch, const Expected& expected) {
 }
 
 void listen(BusWatch& watch, const Expected& expected, const services::Lifecycle& lifecycle) {
-  const auto deadline = std::chrono::steady_clock::now() + kPatience;
+  const auto begun = std::chrono::steady_clock::now();
+  std::chrono::steady_clock::duration passed;
   do {
     watch.step(kStep);
+    passed = std::chrono::steady_clock::now() - begun;
   } while (watch.broker().state == BrokerState::up && !lifecycle.stopping() &&
-           !are_all_heard(watch, expected) && std::chrono::steady_clock::now() < deadline);
+           (passed < kLeast || (!are_all_heard(watch, expected) && passed < kPatience)));
 }
 
 /// Why everything has to start again; empty if not.
@@ -83,6 +87,13 @@ std::vector<Step> steps_of(const BusWatch& watch, const Expected& expected, cons
       std::printf("%s: is not started: %s\n", process.c_str(), why_not_running(*state).c_str());
     else if (!all_because.empty() && !has(unit_of(process)))
       steps.push_back({kRestart, unit_of(process), all_because});
+  }
+  for (const char* process : kByChoice) {
+    const auto state = watch.observed().find(process) == nullptr ? units.state(process) : std::nullopt;
+    if (state && state->active == "failed")
+      steps.push_back({"StartUnit", state->unit, "it had failed"});
+    else if (state && state->active != "inactive")
+      steps.push_back({kRestart, state->unit, "it runs, and was not heard"});
   }
   const auto broker = units.state("gvom-roudi");
   const bool failed = broker && broker->active == "failed";

@@ -192,6 +192,9 @@ std::vector<ProcessView> processes_of(const Broker& broker, const Observed& obse
     else
       views.push_back(never_heard(name, broker));
   }
+  for (const char* name : kByChoice)
+    if (observed.find(name) == nullptr && surroundings.has_failed && surroundings.has_failed(name))
+      views.push_back(never_heard(name, broker));
   for (const HeardProcess& heard : observed.processes()) {
     const std::string name(ipc::text_of(heard.newest.process));
     const bool ended_well =

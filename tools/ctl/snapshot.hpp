@@ -17,6 +17,8 @@
 namespace gvom::ctl {
 
 inline constexpr char kBroker[] = "gvom-roudi";
+/// No vehicle's file asks for these: they are missed only where systemd says that their unit has failed.
+inline constexpr const char* kByChoice[] = {"gvom-planner", "gvom-bridge"};
 
 /// The broker, by a look from outside (ipc/broker_probe.hpp) and by joining its bus.
 enum class BrokerState { absent, hung, up };
@@ -44,6 +46,7 @@ struct Surroundings {
   std::function<std::optional<tools::Usage>(std::uint32_t pid)> usage;
   std::function<std::optional<std::uint64_t>(const std::string& process)> restarts;
   std::function<std::string(const std::string& process)> why_not_running;  ///< Empty: nothing to say.
+  std::function<bool(const std::string& process)> has_failed = {};         ///< By systemd, for good.
 };
 
 /// A process's own word of itself, or what can be told of one that does not speak: silent, it is there; hung,

@@ -40,6 +40,10 @@ Surroundings surroundings_of(Units& units) {
           [&units](const std::string& process) {
             const auto state = units.state(process);
             return state ? why_not_running(*state) : "";
+          },
+          [&units](const std::string& process) {
+            const auto state = units.state(process);
+            return state && state->active == "failed";
           }};
 }
 
