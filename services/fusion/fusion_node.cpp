@@ -183,6 +183,7 @@ void FusionNode::empty_window() {
   fresh_ = false;
   voxels_fresh_ = false;
   for (const WindowMap& left : fuser_.window().left()) bus_.inbox.release(left.token);
+  bus_.inbox.forget_fused();
 }
 
 /// Before its epoch or jump is looked at.
@@ -201,10 +202,9 @@ void FusionNode::complain(std::string why) {
 
 void FusionNode::refuse(const ArrivedMap& map, AddResult result) {
   counters_.count_drop(result);
-  if (result == AddResult::wrong_grid) {
-    log_drops_(spdlog::level::err,
-               "a map of another grid came: do all processes have the same configuration?");
-  }
+  if (result == AddResult::wrong_grid)
+    complain("lidar " + bus_.inbox.lidars()[static_cast<std::size_t>(map.lidar)].name +
+             ": its map has another grid: do all processes have the same configuration?");
   bus_.inbox.release(map.token);
 }
 

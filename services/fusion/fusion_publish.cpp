@@ -34,7 +34,7 @@ void FusionNode::publish_layers() {
   auto writer = bus_.layers.loan(moment.grid.size[0], moment.grid.size[2]);
   if (!writer) {
     ++counters_.layers_without_chunk;
-    log_drops_(spdlog::level::err, "layers are lost: {}", writer.error().message);
+    complain("layers are lost: " + writer.error().message);
     return;
   }
   if (const auto made = fuser_.make_layers(writer->arrays()); !made) return fail(made.error());

@@ -44,6 +44,14 @@ void MapInbox::note_fused(const ArrivedMap& map) {
   lidar.ground = map.sample->header().ground;
 }
 
+void MapInbox::forget_fused() {
+  for (Lidar& lidar : lidars_) {
+    lidar.newest_stamp_ns = 0;
+    lidar.columns_seen_fraction = 0;
+    lidar.ground = {};
+  }
+}
+
 void MapInbox::release(std::uint64_t token) {
   held_[token].reset();
 }

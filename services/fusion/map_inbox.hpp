@@ -34,6 +34,8 @@ class MapInbox {
   void release(std::uint64_t token);
   /// The map was fused: it is the newest of its lidar, for Layers.
   void note_fused(const ArrivedMap& map);
+  /// The window begins anew: as if none had been fused.
+  void forget_fused();
   /// Of a map that is held.
   [[nodiscard]] const ipc::BrickMap& header(std::uint64_t token) const { return held_[token]->header(); }
 

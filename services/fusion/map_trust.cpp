@@ -29,9 +29,17 @@ std::string epoch_of(const ipc::BrickMap& map) {
 void MapTrust::take(const ipc::MessageHeader& odometry) {
   if (heard_ && odometry.epoch < odometry_epoch_) return;  // of a clock that has been replaced
   const bool anew = !heard_ || odometry.epoch > odometry_epoch_;
-  odometry_stamp_ns_ = anew ? odometry.stamp_ns : std::max(odometry_stamp_ns_, odometry.stamp_ns);
+  const bool goes_on = anew || odometry.stamp_ns >= odometry_stamp_ns_;
   odometry_epoch_ = odometry.epoch;
   heard_ = true;
+  if (!goes_on && !has_gone_back(odometry.sequence)) return;
+  odometry_stamp_ns_ = odometry.stamp_ns;
+  back_since_.reset();
+}
+
+bool MapTrust::has_gone_back(std::uint64_t sequence) {
+  if (!back_since_ || sequence < *back_since_) back_since_ = sequence;
+  return sequence - *back_since_ + 1 >= kAnew;
 }
 
 std::optional<MapLie> MapTrust::judge(const ipc::BrickMap& map, std::int64_t now_ns) const {

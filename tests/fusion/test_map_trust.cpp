@@ -65,6 +65,50 @@ TEST_CASE("a new epoch is believed once the odometry has announced it, and old o
   CHECK(trust.judge(map_of(8, 9 * kSecond_ns), kNow_ns));  // the new clock is at 1 s
 }
 
+TEST_CASE(
+    "a clock that was set back is believed after eight messages, however often, and maps ahead of it are "
+    "not") {
+  MapTrust trust;
+  std::uint64_t sequence = 0;
+  const auto hear = [&](std::int64_t stamp_ns) {
+    auto header = odometry_of(7, stamp_ns);
+    header.sequence = ++sequence;
+    trust.take(header);
+  };
+  for (int round = 0; round < 3; ++round) {
+    for (int i = 0; i < 8; ++i) {
+      hear(kSecond_ns + i);  // from the second round on the clock went back
+      if (round > 0) CHECK(trust.was_deceived() == (i == 7));
+    }
+    if (trust.was_deceived()) trust.forget();
+    CHECK(trust.judge(map_of(7, 100 * kSecond_ns), kNow_ns));
+    hear(100 * kSecond_ns);
+    CHECK_FALSE(trust.judge(map_of(7, 100 * kSecond_ns), kNow_ns));
+    trust.believe(map_of(7, 100 * kSecond_ns));
+    CHECK_FALSE(trust.was_deceived());
+  }
+}
+
+TEST_CASE("strays of the past are none, and of messages that fusion did not see the others count") {
+  MapTrust trust;
+  auto header = odometry_of(7, 100 * kSecond_ns);
+  trust.take(header);
+  trust.believe(map_of(7, 100 * kSecond_ns));
+  for (int i = 0; i < 100; ++i) {
+    header.stamp_ns = i % 7 == 6 ? 100 * kSecond_ns + i : kSecond_ns;  // six strays, and one that goes on
+    ++header.sequence;
+    trust.take(header);
+    REQUIRE_FALSE(trust.was_deceived());
+  }
+  header.stamp_ns = kSecond_ns;
+  ++header.sequence;
+  trust.take(header);
+  CHECK_FALSE(trust.was_deceived());
+  header.sequence += 7;  // six between them were never taken
+  trust.take(header);
+  CHECK(trust.was_deceived());
+}
+
 TEST_CASE("a jump of the odometry after the map's own stamp is a lie") {
   const MapTrust trust = with_odometry(7, 10 * kSecond_ns);
   ipc::BrickMap map = map_of(7, 9 * kSecond_ns);
