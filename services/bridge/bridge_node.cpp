@@ -101,6 +101,7 @@ void BridgeNode::take_odometry() {
   if (!heard_.odometry || heard_.odometry->header.stamp_ns == data_stamp_ns_ || now_ns < next_tf_ns_) return;
   next_tf_ns_ = now_ns + kTfPeriod_ns;
   data_stamp_ns_ = heard_.odometry->header.stamp_ns;
+  data_came_ns_ = heard_.odometry_mono_ns;
   if (wanted(TopicId::tf))
     send(TopicId::tf, data_stamp_ns_, maker_.tf(data_stamp_ns_, heard_.odometry->T_odom_base));
 }
@@ -110,7 +111,10 @@ void BridgeNode::take_layers() {
   if (!sample) return;
   ++layers_in_;
   heard_.layers = sample->header();
-  if (!heard_.odometry) data_stamp_ns_ = sample->header().header.stamp_ns;
+  if (!heard_.odometry) {
+    data_stamp_ns_ = sample->header().header.stamp_ns;
+    data_came_ns_ = ipc::monotonic_ns();
+  }
   const auto period_ns = static_cast<std::int64_t>(1e9 / config_.bridge.rate_hz);
   const std::int64_t now_ns = ipc::monotonic_ns();
   // A quarter early is in time: layers at just this rate come a little early or late.
@@ -195,10 +199,12 @@ void BridgeNode::tell_each_second() {
   processes.erase(std::remove_if(processes.begin(), processes.end(),
                                  [&](const auto& one) { return now_ns - one.mono_ns > kForget_ns; }),
                   processes.end());
+  // Also while no data comes: an outage has its length.
+  const std::int64_t stamp_ns = data_stamp_ns_ == 0 ? 0 : data_stamp_ns_ + now_ns - data_came_ns_;
   if (wanted(TopicId::diagnostics))
-    send(TopicId::diagnostics, data_stamp_ns_, maker_.diagnostics(data_stamp_ns_, processes, now_ns));
+    send(TopicId::diagnostics, stamp_ns, maker_.diagnostics(stamp_ns, processes, now_ns));
   if (wanted(TopicId::status))
-    send(TopicId::status, data_stamp_ns_, maker_.status(status_json(heard_, ipc::Moment::now())));
+    send(TopicId::status, stamp_ns, maker_.status(status_json(heard_, ipc::Moment::now())));
 }
 
 /// Their counters and problems, to Health and to the log.

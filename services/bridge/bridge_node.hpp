@@ -70,6 +70,7 @@ class BridgeNode {
   MessageMaker maker_;
   Heard heard_;
   std::int64_t data_stamp_ns_ = 0;  // the newest
+  std::int64_t data_came_ns_ = 0;   // when it came
   std::int64_t next_layers_ns_ = 0;
   std::int64_t next_tf_ns_ = 0;
   std::int64_t next_second_ns_ = 0;

@@ -82,6 +82,29 @@ TEST_CASE("a Foxglove client gets the map, and the file is whole after a stop") 
   rig.end();
 }
 
+TEST_CASE("an outage is as long in the file as it was") {
+  Rig rig;
+  rig.start();
+  const auto client = rig.client();
+  REQUIRE(client);
+  REQUIRE(first_of(*client, {kCostmap}).size() == 1);
+  rig.odometry->kill_asleep();
+  REQUIRE(client->subscribe(kStatus, kStatus));
+  for (int told = 0; told < 4;) {
+    const auto message = client->read_data();
+    REQUIRE(message);
+    told += subscription_of(*message) == kStatus ? 1 : 0;
+  }
+  CHECK(rig.bridge->stop() == 0);
+  std::vector<std::uint64_t> told_ns;
+  for (const test::McapMessage& message : test::read_mcap(rig.recorded()[0]).messages)
+    if (message.topic == "/gvom/status") told_ns.push_back(message.log_ns);
+  REQUIRE(told_ns.size() >= 4);
+  for (std::size_t i = told_ns.size() - 2; i < told_ns.size(); ++i)
+    CHECK(told_ns[i] - told_ns[i - 1] == Approx(1e9).margin(3e8));
+  rig.graph.stop();
+}
+
 TEST_CASE("after kill -9 the file has what was recorded, and the map goes on") {
   Rig rig;
   rig.start();
