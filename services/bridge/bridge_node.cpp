@@ -15,7 +15,8 @@ namespace {
 constexpr std::chrono::milliseconds kWait{20};           // odometry and Health are looked for so often
 constexpr std::int64_t kTfPeriod_ns = 20'000'000;        // 50 Hz are enough for eyes
 constexpr std::int64_t kLeaveVoxels_ns = 5'000'000'000;  // after the last that wanted them
-constexpr std::int64_t kForget_ns = 60'000'000'000;      // a process that has been silent for so long
+constexpr std::int64_t kForget_ns = 60'000'000'000;  // a process that was stopped, and is silent for so long;
+constexpr std::int64_t kForgetLost_ns = 60 * kForget_ns;  // one that fell silent
 constexpr std::size_t kMostProcesses = 64;
 
 ros::LayersView view_of(const ipc::LayersSample& sample) {
@@ -27,6 +28,11 @@ ros::LayersView view_of(const ipc::LayersSample& sample) {
                                                 : static_cast<const void*>(sample.layer_f(id).data());
   }
   return view;
+}
+
+bool is_forgotten(const ipc::Health& one, std::int64_t now_ns) {
+  const bool stopped = one.state == static_cast<std::uint32_t>(ipc::HealthState::stopping);
+  return now_ns - one.mono_ns > (stopped ? kForget_ns : kForgetLost_ns);
 }
 
 }  // namespace
@@ -196,9 +202,8 @@ void BridgeNode::tell_each_second() {
   tell_sinks();
   publish_health(now_ns);
   auto& processes = heard_.processes;
-  processes.erase(std::remove_if(processes.begin(), processes.end(),
-                                 [&](const auto& one) { return now_ns - one.mono_ns > kForget_ns; }),
-                  processes.end());
+  const auto is_over = [&](const auto& one) { return is_forgotten(one, now_ns); };
+  processes.erase(std::remove_if(processes.begin(), processes.end(), is_over), processes.end());
   // Also while no data comes: an outage has its length.
   const std::int64_t stamp_ns = data_stamp_ns_ == 0 ? 0 : data_stamp_ns_ + now_ns - data_came_ns_;
   if (wanted(TopicId::diagnostics))

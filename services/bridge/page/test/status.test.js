@@ -20,6 +20,16 @@ test('problems in words: who, what, and the reason', () => {
   assert.deepEqual(status.missing, ['rear']);
 });
 
+test('what never came, or is old, or half, is not well', () => {
+  const problems_of = (changed) => status_of({ ...status_json({ age_s: 0.05, rear: true, fusion: true }), ...changed }).problems;
+  assert.deepEqual(problems_of({ layers: null }), ['no layers came']);
+  assert.deepEqual(problems_of({ layers: { age_s: null } }), ['the newest layers are of unknown age']);
+  assert.deepEqual(problems_of({ odometry: null }), ['no odometry came']);
+  assert.deepEqual(problems_of({ odometry: { age_s: 61 } }), ['the newest odometry is 61.0 s old']);
+  assert.deepEqual(problems_of({ lidars: [{ name: 'front', columns_seen_fraction: 0.5 }] }),
+    ["lidar front's newest sweep has 50 % of its columns"]);
+});
+
 test('what the bridge says itself of its problems is taken', () => {
   assert.deepEqual(status_of({ problems: ['no odometry came'] }).problems, ['no odometry came']);
 });

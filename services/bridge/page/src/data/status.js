@@ -1,6 +1,9 @@
 /** What /gvom/status says, with all that may be missing filled in, and what of it is not as it should be, in words. */
 import { STALE_S } from './age.js';
 
+const ODOMETRY_OLD_S = 2; // like the next, as gvomctl judges
+const SWEEP_SEEN = 0.95;
+
 const number = (value) => (Number.isFinite(value) ? value : null);
 
 /** Entries of an object, or of an array of objects with a name. */
@@ -37,17 +40,28 @@ function lidar_of([name, json]) {
   };
 }
 
+/** What never came is null, which the bridge tells; what it does not speak of at all is not judged. */
+function data_problems_of({ layers, odometry }, { layers_age_s, odometry_age_s }) {
+  const problems = [];
+  if (layers === null) problems.push('no layers came');
+  else if (layers?.age_s === null) problems.push('the newest layers are of unknown age');
+  else if (layers_age_s > STALE_S) problems.push(`the newest layers are ${layers_age_s.toFixed(1)} s old`);
+  if (odometry === null) problems.push('no odometry came');
+  else if (odometry_age_s > ODOMETRY_OLD_S) problems.push(`the newest odometry is ${odometry_age_s.toFixed(1)} s old`);
+  return problems;
+}
+
 /** What a process said before it fell silent is no reason any more. */
-function problems_of({ processes, lidars, layers_age_s }) {
+function problems_of({ processes, lidars }) {
   const problems = processes
     .filter(({ state }) => state !== 'ok' && state !== 'unknown')
     .map(({ name, state, reason }) => `${name} is ${state}${state !== 'silent' && reason ? `: ${reason}` : ''}`);
-  for (const { name, missing, unknown } of lidars) {
+  for (const { name, missing, unknown, seen_fraction } of lidars) {
     if (unknown) problems.push(`lidar ${name} is not in gvom-fusion's configuration: its maps are not taken`);
     else if (missing) problems.push(`lidar ${name} is missing in the layers`);
+    else if (seen_fraction !== null && seen_fraction < SWEEP_SEEN)
+      problems.push(`lidar ${name}'s newest sweep has ${(100 * seen_fraction).toFixed(0)} % of its columns`);
   }
-  if (layers_age_s !== null && layers_age_s > STALE_S)
-    problems.push(`the newest layers are ${layers_age_s.toFixed(1)} s old`);
   return problems;
 }
 
@@ -61,7 +75,7 @@ export function status_of(json) {
     layers_age_s: number(json.layers?.age_s ?? json.layers_age_s),
     odometry_age_s: number(json.odometry?.age_s ?? json.odometry_age_s),
   };
-  status.problems = json.problems ?? problems_of(status);
+  status.problems = json.problems ?? [...problems_of(status), ...data_problems_of(json, status)];
   status.missing = status.lidars.filter(({ missing }) => missing).map(({ name }) => name);
   return status;
 }
