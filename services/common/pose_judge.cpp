@@ -33,7 +33,8 @@ bool PoseJudge::jumps(const StampedPose& pose) const {
 
 PoseJudge::Verdict PoseJudge::judge(const StampedPose& pose) {
   if (!OdometryBuffer::is_usable(pose.T_odom_base)) return {PoseStep::not_a_pose};
-  if (last_ && pose.stamp_ns <= last_->stamp_ns) {
+  if (last_ && pose.stamp_ns == last_->stamp_ns) return {PoseStep::repeated};
+  if (last_ && pose.stamp_ns < last_->stamp_ns) {
     if (++backwards_ < kAnew) return {PoseStep::backwards};
     begin_anew();
     last_ = pose;

@@ -15,7 +15,8 @@ enum class PoseStep {
   jump,        ///< Farther away than the vehicle can go: maps from before lie wrongly to those after.
   anew,        ///< After many that went back in time: the one that they went back from was wrong.
   not_a_pose,  ///< Not finite, or too far away. Not to be used.
-  backwards,   ///< Not newer than the one before. Not to be used.
+  repeated,    ///< As old as the one before. Not to be used.
+  backwards,   ///< Older than the one before. Not to be used.
 };
 
 /// Live and recorded poses alike.

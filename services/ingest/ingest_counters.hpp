@@ -71,7 +71,7 @@ inline constexpr CounterRow kIngestCounters[] = {
     {"odometry_in", &IngestCounts::poses, "poses that came"},
     {"odometry_lost", &IngestCounts::lost_poses, "poses that the queue had no room for"},
     {"drop_odometry_not_finite", &IngestCounts::not_finite_poses, "poses that are none"},
-    {"drop_odometry_not_newer", &IngestCounts::not_newer_poses, "poses that go back in time"},
+    {"drop_odometry_not_newer", &IngestCounts::not_newer_poses, "poses that go back in time, or repeat one"},
     {"drop_odometry_old_epoch", &IngestCounts::old_epoch_poses, "poses of an old epoch"},
     {"drop_odometry_refused", &IngestCounts::refused_poses, "odometry messages of another version or kind"},
     {"odometry_gaps", &IngestCounts::odometry_gaps, "gaps in the odometry"},

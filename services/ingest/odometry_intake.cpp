@@ -100,6 +100,8 @@ Taken OdometryIntake::note_step(const services::PoseJudge::Verdict& verdict, std
     case services::PoseStep::not_a_pose:
       seen_.see(OdometryFault::not_finite, 0, now_ns);
       return ++counts_.not_finite, Taken::not_a_pose;
+    case services::PoseStep::repeated:
+      return ++counts_.not_newer, Taken::backwards;
     case services::PoseStep::backwards:
       seen_.see(OdometryFault::backwards, 0, now_ns);
       return ++counts_.not_newer, Taken::backwards;

@@ -38,7 +38,11 @@ class OusterDecoder final : public Decoder {
   enum class Belongs { open_frame, next_frame, closed_frame, just_completed, nowhere };
 
   [[nodiscard]] bool turns_sooner(const std::uint8_t* packet) const;
+  [[nodiscard]] bool turns_later(const OusterColumn& column) const;
   void note_short_turn();
+  void note_long_turn(bool is_long);
+  void warn_of_mode(const std::string& what);
+  [[nodiscard]] OusterColumn first_column(const std::uint8_t* packet) const;
   [[nodiscard]] std::optional<std::uint16_t> frame_of(const std::uint8_t* packet) const;
   [[nodiscard]] Belongs classify(std::uint16_t frame) const;
   [[nodiscard]] bool is_repeated(const std::uint8_t* packet) const;
@@ -62,9 +66,11 @@ class OusterDecoder final : public Decoder {
   int received_ = 0;                  // columns of the open frame
   int highest_ = -1;                  // measurement id of the open frame so far
   std::uint16_t frame_ = 0;
+  OusterColumn begun_{};  // the first column of that frame
   bool any_frame_ = false;
   bool open_ = false;
-  int short_turn_ = 0;  // columns of a turn, if that is proven to be fewer than the metadata's
+  int short_turn_ = 0;      // columns of a turn, if that is proven to be fewer than the metadata's
+  bool long_turn_ = false;  // a turn takes longer than the metadata says: it has more columns
   bool warned_of_mode_ = false;
   bool whole_ = false;          // the open frame was seen from its beginning
   std::int64_t newest_ns_ = 0;  // newest column of the open frame, or of the one just completed

@@ -41,6 +41,11 @@ std::string why_no_sweep(const SourceCounters& c) {
   return text;
 }
 
+/// A sensor whose sweeps may be small, as its field of view is, sends as much less.
+double least_packets_per_s(const Decoder& decoder, const SourceOptions& options) {
+  return decoder.least_packets_per_s() * std::clamp(2 * options.min_sweep_fraction, 0.1, 1.0);
+}
+
 }  // namespace
 
 PacketSweepSource::PacketSweepSource(std::unique_ptr<SourceState> state,
@@ -51,7 +56,7 @@ PacketSweepSource::PacketSweepSource(std::unique_ptr<SourceState> state,
       decoder_(std::move(decoder)),
       clock_offset_ns_(options.clock_offset_ns),
       only_from_(only_from),
-      owner_(decoder_->least_packets_per_s(), decoder_->most_packets_per_s()) {
+      owner_(least_packets_per_s(*decoder_, options), decoder_->most_packets_per_s()) {
   if (options.by_arrival) arrival_.emplace();
 }
 

@@ -136,6 +136,18 @@ TEST_CASE("poses that are none or go back are told; one that was far ahead is go
   CHECK(stream.intake().counts().not_newer == 8);
 }
 
+TEST_CASE("a pose that is repeated, however often, is counted and changes nothing") {
+  Stream stream;
+  for (int i = 0; i < 40; ++i) {
+    CHECK(stream.take(10 + i * 0.1, 0) == Taken::used);
+    for (int again = 0; again < 10; ++again) CHECK(stream.take(10 + i * 0.1, 0) == Taken::backwards);
+  }
+  CHECK(stream.places(10.05));
+  CHECK(stream.intake().poses().jump_before(ns(13.9)) == 0);
+  CHECK(stream.says(13.9).find("back in time") == std::string::npos);
+  CHECK(stream.intake().counts().not_newer == 400);
+}
+
 TEST_CASE("a new epoch follows nothing, and an old one is not used, but counted and told") {
   Stream stream;
   stream.take(10, 0);

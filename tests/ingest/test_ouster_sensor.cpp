@@ -1,4 +1,6 @@
 // Which Ouster the packets are of, and of which mode: serial numbers, columns, turns.
+#include <algorithm>
+
 #include "tests/ingest/ouster_stream.hpp"
 
 using namespace gvom;
@@ -94,6 +96,31 @@ TEST_CASE(
   Stream beyond(with_serial(5));
   beyond.packet(1, 16).packet(1, 20);
   CHECK(beyond.refusal(with_serial(5)).find("column 19, the metadata has 16 a turn") != std::string::npos);
+}
+
+TEST_CASE("half a turn is no turn where the sensor has twice the columns in twice the time") {
+  OusterSensor sensor = with_serial(5);
+  sensor.mode = "16x20";
+  sensor.column_ns = 50'000'000 / 16;
+  sensor.frame_ns = 100'000'000;  // of 32 columns
+  Stream stream(sensor);
+  for (int frame = 1; frame <= 6; ++frame)
+    for (int column = 0; column < 32; column += 4) stream.packet(frame, column);
+  CHECK(stream.play().size() == 1);  // the first: nothing was known yet
+  CHECK(stream.counters().misfit_sweeps == 5);
+  const auto& warnings = stream.warnings();
+  CHECK(std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
+    return warning.find("a turn takes longer than in the metadata's mode, 1/20 s") == 0;
+  }));
+
+  OusterSensor right = sensor;
+  right.frame_ns = 50'000'000;
+  Stream lossy(right);  // whole turns, but for two that are lost, and the beginnings of others
+  for (int frame = 1; frame <= 8; ++frame)
+    if (frame != 3 && frame != 4)
+      for (int column = frame % 2 * 8; column < 16; column += 4) lossy.packet(frame, column);
+  CHECK(lossy.play(0.4).size() == 6);
+  CHECK(lossy.counters().misfit_sweeps == 0);
 }
 
 TEST_CASE("turns of half the columns in half the time are not mapped as halves of a turn") {

@@ -85,7 +85,8 @@ struct Outcome {
 };
 
 /// Every sweep must be of one sensor only.
-Outcome play(std::vector<Arrival> arrivals, double min_sweep_fraction = 0) {
+Outcome play(std::vector<Arrival> arrivals, double min_sweep_fraction = 0,
+             const ingest::SourceOptions& options = {}) {
   TemporaryFolder folder;
   auto state = std::make_unique<ingest::SourceState>();
   const std::string meta = write_text(folder.path() + "/meta.json", sensor().json());
@@ -94,7 +95,7 @@ Outcome play(std::vector<Arrival> arrivals, double min_sweep_fraction = 0) {
   auto decoder = std::make_unique<ingest::OusterDecoder>(
       *metadata, ingest::SourceOptions{min_sweep_fraction, 1000}, *state);
   ingest::PacketSweepSource source(std::move(state), std::make_unique<Arrivals>(std::move(arrivals)),
-                                   std::move(decoder), {});
+                                   std::move(decoder), options);
   Outcome outcome;
   outcome.sweeps.resize(10);
   Sweep sweep;
@@ -168,6 +169,18 @@ TEST_CASE("a sensor of which many packets are lost keeps its port against stray 
   const Outcome outcome = play(arrivals, 0.3);
   CHECK(outcome.counters.sweeps >= 45);
   CHECK(outcome.counters.second_sensor_packets >= 49);
+  CHECK(outcome.counters.slow_packets == 0);
+}
+
+TEST_CASE(
+    "a sensor with a sixth of a turn in view is one, where the vehicle's file says that so little will do") {
+  std::vector<Arrival> all, arrivals;
+  live(all, 1, 1000, 6000);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (i % kPackets < 3) arrivals.push_back(all[i]);
+  CHECK(play(arrivals, 0.1).counters.sweeps == 0);
+  const Outcome outcome = play(arrivals, 0.1, {0.1, 1000});
+  CHECK(outcome.counters.sweeps >= 49);
   CHECK(outcome.counters.slow_packets == 0);
 }
 

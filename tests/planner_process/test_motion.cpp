@@ -96,6 +96,14 @@ TEST_CASE("after one pose of tomorrow, or a clock that was set back, it goes on"
   CHECK(motion.take(pose_at((52 + refused) * kStep_ns, 2.08, 0, 0), 0) == MotionNews::used);
 }
 
+TEST_CASE("a stamp that is repeated, however often, is no clock that was set back") {
+  MotionEstimate motion = driven(4, 0);
+  for (int i = 0; i < 20; ++i)
+    CHECK(motion.take(pose_at(50 * kStep_ns, 2, 0, 0), 0) == MotionNews::backwards);
+  CHECK(motion.state()->speed_mps == Approx(4));
+  CHECK(motion.take(pose_at(51 * kStep_ns, 2.04, 0, 0), 0) == MotionNews::used);
+}
+
 TEST_CASE("a jump and a new epoch begin anew; what is no pose is not used") {
   MotionEstimate motion = driven(4, 0);
   CHECK(motion.take(pose_at(50 * kStep_ns, 2, 0, 0), 0) == MotionNews::backwards);

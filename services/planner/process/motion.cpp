@@ -23,7 +23,7 @@ MotionNews MotionEstimate::take(const StampedPose& pose, std::uint64_t epoch) {
   const bool newer = taken_ != 0 && epoch != epoch_;
   if (newer) judge_.begin_anew();
   const PoseStep step = judge_.judge(pose).step;
-  if (step == PoseStep::backwards) return MotionNews::backwards;
+  if (step == PoseStep::backwards || step == PoseStep::repeated) return MotionNews::backwards;
   MotionNews news = MotionNews::used;
   if (step == PoseStep::jump) news = MotionNews::jump;
   if (newer || step == PoseStep::anew) news = MotionNews::anew;
