@@ -83,24 +83,54 @@ TEST_CASE("The prediction is where the vehicle is when the command arrives") {
   }
 }
 
+/// Progress, told ten times a second what holds until something else does.
+class Watched {
+ public:
+  bool update(double to_s, double cost, double distance_m) {
+    bool gives_up = false;
+    for (; now_s_ < to_s - 0.05; now_s_ += 0.1) gives_up |= tell();
+    now_s_ = to_s, cost_ = cost, distance_m_ = distance_m;
+    return tell() || gives_up;
+  }
+  /// The clock is set.
+  void leap(double by_s) { clock_s_ += by_s; }
+
+ private:
+  bool tell() {
+    return progress_.update(static_cast<std::int64_t>((now_s_ + clock_s_) * 1e9), cost_, distance_m_);
+  }
+
+  planner::Progress progress_{10};
+  double now_s_ = 0, clock_s_ = 0, cost_ = 1e3, distance_m_ = 1e3;
+};
+
 TEST_CASE("It gives up after its time without a metre of progress") {
-  planner::Progress progress(10);
-  const auto at = [](double seconds) { return static_cast<std::int64_t>(seconds * 1e9); };
-  CHECK_FALSE(progress.update(at(0), 50, 40));
-  CHECK_FALSE(progress.update(at(9), 49, 40));   // by 1 of cost: begins anew
-  CHECK_FALSE(progress.update(at(18), 49, 39));  // by 1 m of distance
-  CHECK_FALSE(progress.update(at(27.9), 48.1, 38.1));
-  CHECK(progress.update(at(28.1), 48.1, 38.1));
+  Watched progress;
+  CHECK_FALSE(progress.update(0, 50, 40));
+  CHECK_FALSE(progress.update(9, 49, 40));   // by 1 of cost: begins anew
+  CHECK_FALSE(progress.update(18, 49, 39));  // by 1 m of distance
+  CHECK_FALSE(progress.update(27.9, 48.1, 38.1));
+  CHECK(progress.update(28.2, 48.1, 38.1));
+}
+
+TEST_CASE("A clock that leaps is no time that passed") {
+  Watched progress;
+  CHECK_FALSE(progress.update(0, 50, 40));
+  progress.leap(3600);
+  CHECK_FALSE(progress.update(4, 50, 40));
+  progress.leap(-1800);
+  CHECK_FALSE(progress.update(8.5, 50, 40));  // a second for the leap ahead
+  CHECK(progress.update(11, 50, 40));
 }
 
 TEST_CASE("A way that turns out to be none is no progress, and to come nearer on the next one is") {
-  planner::Progress progress(10);
+  Watched progress;
+  progress.update(0, 20, 40);
+  CHECK_FALSE(progress.update(5, 90, 40));
+  CHECK_FALSE(progress.update(9, 88, 41));   // nearer on the new way
+  CHECK_FALSE(progress.update(18, 88, 41));  // 9 s after that
+  CHECK(progress.update(19.5, 88, 41));
   const auto at = [](double seconds) { return static_cast<std::int64_t>(seconds * 1e9); };
-  progress.update(at(0), 20, 40);
-  CHECK_FALSE(progress.update(at(5), 90, 40));
-  CHECK_FALSE(progress.update(at(9), 88, 41));   // nearer on the new way
-  CHECK_FALSE(progress.update(at(18), 88, 41));  // 9 s after that
-  CHECK(progress.update(at(19.5), 88, 41));
   // To and fro for ever: five times as long without the best of all.
   planner::Progress swings(10);
   bool gives_up = false;
