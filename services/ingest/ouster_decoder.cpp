@@ -43,6 +43,7 @@ OusterDecoder::OusterDecoder(OusterMetadata metadata, const SourceOptions& optio
       geometry_(metadata_),
       state_(state),
       builder_(options, static_cast<std::size_t>(metadata_.columns_per_frame), state.counters),
+      turns_(metadata_, state.warnings),
       scratch_(2 * metadata_.beams()),
       fresh_(static_cast<std::size_t>(metadata_.columns_per_frame), ColumnState::outside_window),
       columns_(fresh_) {
@@ -183,13 +184,10 @@ bool OusterDecoder::decode(const Packet& packet, Sweep& out) {
   bool closed = false;
   if (belongs != Belongs::open_frame) {
     const bool follows = fits && any_frame_;
-    const OusterColumn begins = first_column(packet.data);
     if (follows) count_skipped_frames(*frame);
-    if (follows && *frame == static_cast<std::uint16_t>(frame_ + 1)) note_long_turn(turns_later(begins));
-    if (follows && open_ && turns_sooner(packet.data)) note_short_turn();
+    watch_turn(packet.data, *frame, follows);
     closed = open_ && close(out);
     begin(*frame);
-    begun_ = begins;
     whole_ = follows;
   }
   use(packet);
@@ -197,53 +195,12 @@ bool OusterDecoder::decode(const Packet& packet, Sweep& out) {
   return closed;
 }
 
-/// The frame that follows begins where, by the columns' own times, the one before had a good part of its turn
-/// to go: a turn has fewer columns than the metadata says, at the same distance in time.
-bool OusterDecoder::turns_sooner(const std::uint8_t* packet) const {
-  const OusterColumn column = first_column(packet);
-  if (metadata_.turns_per_s <= 0 || !column.valid || highest_ < 0) return false;
-  const double to_go = metadata_.columns_per_frame - highest_ + column.measurement_id;
-  const double gone_ns = static_cast<double>(column.timestamp_ns) - static_cast<double>(newest_ns_);
-  const double gone = gone_ns * 1e-9 * metadata_.turns_per_s * metadata_.columns_per_frame;
-  return to_go > metadata_.columns_per_frame / 4.0 && gone > 0 && gone < to_go / 2;
-}
-
-/// Until a turn goes on beyond it.
-void OusterDecoder::note_short_turn() {
-  short_turn_ = highest_ + 1;
-  warn_of_mode("turns end with column " + std::to_string(highest_) + ", the metadata has " +
-               std::to_string(metadata_.columns_per_frame));
-}
-
-/// The next frame begins so much later that the one before had columns beyond the metadata's: what is within
-/// is a part of a turn. Modes differ by factors of 2; what is farther off is a step of the sensor's clock.
-bool OusterDecoder::turns_later(const OusterColumn& column) const {
-  if (metadata_.turns_per_s <= 0 || !column.valid || !begun_.valid) return false;
-  const double turns =
-      1 + static_cast<double>(column.measurement_id - begun_.measurement_id) / metadata_.columns_per_frame;
-  const double gone_ns = static_cast<double>(column.timestamp_ns) - static_cast<double>(begun_.timestamp_ns);
-  const double gone = gone_ns * 1e-9 * metadata_.turns_per_s;
-  return gone > kLonger * turns && gone < kSteps * turns;
-}
-
-/// Until a turn takes as long as it should.
-void OusterDecoder::note_long_turn(bool is_long) {
-  long_turn_ = is_long;
-  if (!is_long) return;
-  char what[96];
-  std::snprintf(what, sizeof what, "a turn takes longer than in the metadata's mode, 1/%.0f s",
-                metadata_.turns_per_s);
-  warn_of_mode(what);
-}
-
-void OusterDecoder::warn_of_mode(const std::string& what) {
-  if (warned_of_mode_) return;
-  warned_of_mode_ = true;
-  state_.warnings.push_back(what + ": fetch the metadata of the mode that the sensor is in; nothing is used");
-}
-
-OusterColumn OusterDecoder::first_column(const std::uint8_t* packet) const {
-  return read_ouster_column(metadata_.layout, packet + metadata_.layout.packet_header, metadata_.beams());
+void OusterDecoder::watch_turn(const std::uint8_t* packet, std::uint16_t frame, bool follows) {
+  const OusterTurns::Frame before{highest_, newest_ns_};
+  const OusterColumn first =
+      read_ouster_column(metadata_.layout, packet + metadata_.layout.packet_header, metadata_.beams());
+  turns_.begin(first, follows && open_ ? &before : nullptr,
+               follows && frame == static_cast<std::uint16_t>(frame_ + 1));
 }
 
 bool OusterDecoder::finish(Sweep& out) {
@@ -270,8 +227,7 @@ bool OusterDecoder::close(Sweep& out) {
   const int expected = metadata_.window_columns();
   state_.counters.columns += static_cast<std::uint64_t>(received_);
   if (whole_) state_.counters.missing_columns += static_cast<std::uint64_t>(expected - received_);
-  if (highest_ >= short_turn_) short_turn_ = 0;
-  if (short_turn_ > 0 || long_turn_) {
+  if (!turns_.fit(highest_)) {
     builder_.discard();
     ++state_.counters.misfit_sweeps;
     return false;

@@ -8,6 +8,7 @@
 
 #include "services/ingest/decoder.hpp"
 #include "services/ingest/ouster_geometry.hpp"
+#include "services/ingest/ouster_turns.hpp"
 #include "services/ingest/sweep_builder.hpp"
 
 namespace gvom::ingest {
@@ -37,12 +38,8 @@ class OusterDecoder final : public Decoder {
   enum class ColumnState : std::uint8_t { missing, received, outside_window };
   enum class Belongs { open_frame, next_frame, closed_frame, just_completed, nowhere };
 
-  [[nodiscard]] bool turns_sooner(const std::uint8_t* packet) const;
-  [[nodiscard]] bool turns_later(const OusterColumn& column) const;
-  void note_short_turn();
-  void note_long_turn(bool is_long);
-  void warn_of_mode(const std::string& what);
-  [[nodiscard]] OusterColumn first_column(const std::uint8_t* packet) const;
+  /// A frame begins with this packet.
+  void watch_turn(const std::uint8_t* packet, std::uint16_t frame, bool follows);
   [[nodiscard]] std::optional<std::uint16_t> frame_of(const std::uint8_t* packet) const;
   [[nodiscard]] Belongs classify(std::uint16_t frame) const;
   [[nodiscard]] bool is_repeated(const std::uint8_t* packet) const;
@@ -59,6 +56,7 @@ class OusterDecoder final : public Decoder {
   OusterGeometry geometry_;
   SourceState& state_;
   SweepBuilder builder_;
+  OusterTurns turns_;
   RestartDetector restart_;
   std::vector<Return> scratch_;       // the returns of one column
   std::vector<ColumnState> fresh_;    // a frame of which nothing came, by measurement id
@@ -66,12 +64,8 @@ class OusterDecoder final : public Decoder {
   int received_ = 0;                  // columns of the open frame
   int highest_ = -1;                  // measurement id of the open frame so far
   std::uint16_t frame_ = 0;
-  OusterColumn begun_{};  // the first column of that frame
   bool any_frame_ = false;
   bool open_ = false;
-  int short_turn_ = 0;      // columns of a turn, if that is proven to be fewer than the metadata's
-  bool long_turn_ = false;  // a turn takes longer than the metadata says: it has more columns
-  bool warned_of_mode_ = false;
   bool whole_ = false;          // the open frame was seen from its beginning
   std::int64_t newest_ns_ = 0;  // newest column of the open frame, or of the one just completed
   std::optional<std::int64_t> packet_time_ns_;
