@@ -22,6 +22,8 @@ enum class PoseStep {
 /// Live and recorded poses alike.
 class PoseJudge {
  public:
+  static constexpr int kAnew = 8;  ///< Poses in a row that go back in time: then the clock did.
+
   explicit PoseJudge(const OdometryConfig& config)
       : max_gap_s_(config.max_gap_s), max_speed_mps_(config.max_speed_mps) {}
 
@@ -35,8 +37,6 @@ class PoseJudge {
   void begin_anew();
 
  private:
-  static constexpr int kAnew = 8;  // poses in a row
-
   [[nodiscard]] bool jumps(const StampedPose& pose) const;
 
   double max_gap_s_;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "ipc/messages.hpp"
+#include "services/common/pose_judge.hpp"
 
 namespace gvom::fusion {
 
@@ -36,7 +37,7 @@ class MapTrust {
   void forget();
 
  private:
-  static constexpr std::uint64_t kAnew = 8;
+  static constexpr std::uint64_t kAnew = services::PoseJudge::kAnew;
 
   /// Whether all messages that were heard since so many have gone back.
   bool has_gone_back(std::uint64_t sequence);

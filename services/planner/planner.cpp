@@ -1,5 +1,6 @@
 #include "services/planner/planner.hpp"
 
+#include <cstdlib>
 #include <utility>
 
 #include "services/planner/cycle.hpp"
@@ -13,8 +14,6 @@ constexpr double kStands_mps = 0.1;
 constexpr double kWaits_mps = 2.5;                     // slower than that it lets pass who is beside it
 constexpr std::int64_t kLongWait_ns = 30'000'000'000;  // for movers: from then on it comes no nearer
 constexpr int kStandCycles = 3;  // what a jump of the odometry says of the speed is nothing at first
-constexpr std::int64_t kMostAtOnce_ns =
-    1'000'000'000;  // more between two cycles is a clock's step, or a sleep
 
 }  // namespace
 
@@ -110,7 +109,7 @@ void Planner::Impl::forget_place() {
 }
 
 void Planner::Impl::observe(const State& state, const Senses& senses) {
-  if (state.stamp_ns < stamp_ns_ || state.stamp_ns - stamp_ns_ > kMostAtOnce_ns) {
+  if (std::abs(state.stamp_ns - stamp_ns_) > static_cast<std::int64_t>(1e9 * Progress::kMostAtOnce_s)) {
     unseen_since_ns_.reset();
     retreat_.clear();
   }
