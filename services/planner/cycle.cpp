@@ -118,7 +118,7 @@ bool Planner::Impl::lead_is_free() const {
 }
 
 void Planner::Impl::brake_for_movers(const MapView& map, const Predicted& at) {
-  view_ = closed_.close(map);
+  view_ = movers_.discourage(closed_.close(map));
   costs_.update(view_);
   const SearchResult result = search(map, at);
   if (result == SearchResult::found || result == SearchResult::cut) {

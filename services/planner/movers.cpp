@@ -3,17 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "services/planner/disc.hpp"
+#include "services/planner/lone.hpp"
 
 namespace gvom::planner {
 namespace {
 
-constexpr std::uint8_t kStands = kHard | kSoft;
-constexpr double kStraight = 0.7;  // the cosine between a way and the one before
-constexpr int kSure = 2;           // so often straight on
-constexpr double kWide_m = 0.8;    // a person
-constexpr double kAlone_m = 1.2;
-constexpr double kSmallest_m2 = 0.1;                  // less is a blade of grass
+constexpr double kStraight = 0.7;                     // the cosine between a way and the one before
+constexpr int kSure = 2;                              // so often straight on
 constexpr std::int64_t kMostAtOnce_ns = 200'000'000;  // of waiting; between two stands it drove
 
 double seconds_of(std::int64_t ns) {
@@ -43,14 +39,17 @@ Movers::Movers(const VehicleLimits& vehicle, int n_xy) : vehicle_(vehicle) {
   found_.reserve(kMost);
   tracks_.reserve(kMost);
   discs_.reserve(kMost * (static_cast<std::size_t>(kAhead_m / kAround_m) + 2));
+  before_.reserve(kMost * static_cast<std::size_t>(kBefore_m / kAround_m + 1));
 }
 
 void Movers::clear() {
   taken_ = 0;
   observed_ns_.reset();
   waited_ns_ = 0;
+  standers_.clear();
   tracks_.clear();
   discs_.clear();
+  before_.clear();
 }
 
 void Movers::observe(const MapView& map, const Eigen::Vector2d& vehicle_m, double speed_mps) {
@@ -58,7 +57,8 @@ void Movers::observe(const MapView& map, const Eigen::Vector2d& vehicle_m, doubl
     observed_ns_ = map.stamp_ns;
     found_.clear();
     if (const Past* past = past_of(map.stamp_ns)) find(map, *past, vehicle_m);
-    follow(map);
+    follow(map, vehicle_m);
+    for (const Standers::SetOff& one : standers_.observe(map, vehicle_m, kSight_m)) begin(one, map.stamp_ns);
     remember(map);
   }
   if ((vehicle_m - waits_at_m_).norm() > kHere_m) waited_ns_ = 0;
@@ -116,22 +116,6 @@ bool Movers::is_alone(const MapView& map, const Eigen::Vector2d& place_m) {
   return standing * cells.cell_m * cells.cell_m <= kLargest_m2;
 }
 
-std::optional<Eigen::Vector2d> Movers::alone_at(const MapView& map, const Eigen::Vector2d& place_m) {
-  const Cells cells = map.cells();
-  const auto stands = [&](int cell) { return (map.flags[cell] & kStands) != 0; };
-  int standing = 0;
-  Eigen::Vector2d middle_m(0, 0);
-  DiscRows(cells, place_m, kWide_m).for_each([&](int cell) {
-    if (stands(cell)) middle_m += (cells.center_of(cell) - middle_m) / ++standing;
-  });
-  const double edge_m = kWide_m / 2 + cells.cell_m;
-  bool alone = standing * cells.cell_m * cells.cell_m >= kSmallest_m2;
-  DiscRows(cells, middle_m, kAlone_m).for_each([&](int cell) {
-    if (stands(cell) && (cells.center_of(cell) - middle_m).norm() > edge_m) alone = false;
-  });
-  return alone ? std::optional(middle_m) : std::nullopt;
-}
-
 void Movers::find(const MapView& map, const Past& past, const Eigen::Vector2d& vehicle_m) {
   const Cells cells = map.cells();
   DiscRows(cells, vehicle_m, kSight_m).for_each([&](int cell) {
@@ -151,12 +135,12 @@ void Movers::add(const Eigen::Vector2d& place_m) {
   if (found_.size() < kMost) found_.push_back({place_m, 1});
 }
 
-void Movers::follow(const MapView& map) {
+void Movers::follow(const MapView& map, const Eigen::Vector2d& vehicle_m) {
   const std::int64_t stamp_ns = map.stamp_ns;
   const double cell_m = map.cells().cell_m;
   for (const Found& found : found_) {
     if (found.columns * cell_m * cell_m > kLargest_m2) continue;
-    const auto alone_m = alone_at(map, found.middle_m);
+    const auto alone_m = lone_at(map, found.middle_m);
     const Eigen::Vector2d middle_m = alone_m.value_or(found.middle_m);
     if (Track* const track = track_of(middle_m, stamp_ns))
       go_on(map, middle_m, alone_m.has_value(), *track);
@@ -164,12 +148,28 @@ void Movers::follow(const MapView& map) {
       tracks_.push_back({middle_m, stamp_ns, middle_m, stamp_ns});
   }
   for (Track& track : tracks_) {
-    track.moves = track.moves && stamp_ns - track.moved_ns <= kHold_ns;
+    track.moves = track.moves && stamp_ns - track.moved_ns <= hold_ns(track, vehicle_m);
     if (!track.moves || track.seen_ns == stamp_ns) continue;
-    if (const auto alone_m = alone_at(map, track.middle_m)) go_on(map, *alone_m, true, track);
+    if (const auto alone_m = lone_at(map, track.middle_m)) go_on(map, *alone_m, true, track);
   }
-  const auto is_over = [&](const Track& track) { return stamp_ns - track.seen_ns > kHold_ns; };
+  const auto is_over = [&](const Track& track) {
+    return stamp_ns - track.seen_ns > hold_ns(track, vehicle_m);
+  };
   tracks_.erase(std::remove_if(tracks_.begin(), tracks_.end(), is_over), tracks_.end());
+}
+
+void Movers::begin(const Standers::SetOff& one, std::int64_t stamp_ns) {
+  Track* track = track_of(one.middle_m, stamp_ns);
+  if (track == nullptr && tracks_.size() < kMost) track = &tracks_.emplace_back();
+  if (track == nullptr) return;
+  track->middle_m = track->from_m = one.middle_m;
+  track->seen_ns = track->from_ns = track->moved_ns = stamp_ns;
+  track->direction = one.direction;
+  track->moves = track->sure = true;
+}
+
+std::int64_t Movers::hold_ns(const Track& track, const Eigen::Vector2d& vehicle_m) {
+  return track.sure && (track.middle_m - vehicle_m).norm() < kBeside_m ? kHoldBeside_ns : kHold_ns;
 }
 
 Movers::Track* Movers::track_of(const Eigen::Vector2d& middle_m, std::int64_t stamp_ns) {
@@ -210,6 +210,7 @@ void Movers::go_on(const MapView& map, const Eigen::Vector2d& middle_m, bool alo
 
 void Movers::close_ahead(std::int64_t stamp_ns, const Eigen::Vector2d& vehicle_m, double speed_mps) {
   discs_.clear();
+  before_.clear();
   const double fast_mps = std::abs(speed_mps);
   const double stands_s = std::max(vehicle_.latency_s + fast_mps / vehicle_.max_decel_mps2, kLeast_s);
   for (const Track& track : tracks_) {
@@ -225,6 +226,9 @@ void Movers::close_ahead(std::int64_t stamp_ns, const Eigen::Vector2d& vehicle_m
     for (double ahead_m = 0; ahead_m < most_m; ahead_m += kAround_m)
       discs_.push_back(ahead_of(track, ahead_m));
     discs_.push_back(ahead_of(track, most_m));
+    if (!track.sure) continue;
+    for (double ahead_m = most_m + kAround_m; ahead_m < most_m + kBefore_m; ahead_m += kAround_m)
+      before_.push_back(ahead_of(track, ahead_m));
   }
 }
 
@@ -246,15 +250,27 @@ bool Movers::reach(const Pose2& pose) const {
 
 MapView Movers::close(const MapView& map) {
   if (empty()) return map;
-  const Cells cells = map.cells();
-  std::copy_n(map.flags, cells.count(), flags_.begin());
-  for (const Disc& disc : discs_)
-    DiscRows(cells, disc.middle_m, disc.radius_m).for_each([&](int cell) {
-      flags_[static_cast<std::size_t>(cell)] |= kHard;
-    });
+  std::copy_n(map.flags, map.cells().count(), flags_.begin());
+  mark(map.cells(), before_, kSoft);
+  mark(map.cells(), discs_, kHard);
   MapView closed = map;
   closed.flags = flags_.data();
   return closed;
+}
+
+MapView Movers::discourage(const MapView& map) {
+  std::copy_n(map.flags, map.cells().count(), flags_.begin());
+  mark(map.cells(), discs_, kSoft);
+  MapView marked = map;
+  marked.flags = flags_.data();
+  return marked;
+}
+
+void Movers::mark(const Cells& cells, const std::vector<Disc>& discs, std::uint8_t flag) {
+  for (const Disc& disc : discs)
+    DiscRows(cells, disc.middle_m, disc.radius_m).for_each([&](int cell) {
+      flags_[static_cast<std::size_t>(cell)] |= flag;
+    });
 }
 
 }  // namespace gvom::planner

@@ -9,6 +9,7 @@
 
 #include "services/common/planner_config.hpp"
 #include "services/planner/map_view.hpp"
+#include "services/planner/standers.hpp"
 
 namespace gvom::planner {
 
@@ -22,6 +23,7 @@ namespace gvom::planner {
 /// `kBack_ns` ago: with nothing else near, whatever stands there is followed. Grass that flickers gets on,
 /// too, each time another way. What is sure to move, since it got on three times straight on or stands alone
 /// and is as large as a person, may turn: when it has not got on for `kTurns_ns`, all around it is closed.
+/// Who stood alone and sets off (`Standers`) is sure to move, too.
 /// What is not sure to move, and flickers on where the vehicle has waited for `kPatience_ns`, closes nothing
 /// more until it has got on.
 class Movers {
@@ -31,6 +33,8 @@ class Movers {
   static constexpr std::int64_t kHold_ns = 1'200'000'000;
   static constexpr std::int64_t kTurns_ns = 500'000'000;  ///< Since it got on; then it may turn.
   static constexpr std::int64_t kPatience_ns = 5'000'000'000;
+  static constexpr double kBeside_m = 3;  ///< Nearer, the map keeps him where he was: he does not get on,
+  static constexpr std::int64_t kHoldBeside_ns = 3'000'000'000;  ///< and who is sure to move is held so long.
   static constexpr double kHere_m = 1;  ///< So far from where it waited the vehicle has got on.
   static constexpr double kMoved_m = 0.5;
   static constexpr double kRuns_mps = 3;
@@ -42,6 +46,7 @@ class Movers {
   static constexpr double kAround_m = 1;  ///< Closed around a mover,
   static constexpr double kWidens = 0.3;  ///< and so much more for each metre that it may get on,
   static constexpr double kAhead_m = 3;   ///< at most so far.
+  static constexpr double kBefore_m = 5;  ///< So far beyond that it costs to pass before who is sure to move.
   static constexpr double kLeast_s = 1;   ///< What sets off beside someone needs that.
 
   struct Disc {
@@ -67,8 +72,12 @@ class Movers {
   void wait(const Eigen::Vector2d& vehicle_m, std::int64_t stamp_ns);
   /// How long it has done so where it is, all together.
   [[nodiscard]] std::int64_t waited_ns() const { return waited_ns_; }
-  /// The map with flags that hold these. Borrows the map's arrays, and is valid until the next call.
+  /// The map with flags that hold these, HARD, and SOFT what is before them. Borrows the map's arrays, and is
+  /// valid until the next call.
   MapView close(const MapView& map);
+  /// The same for who brakes in any case: the room that they can reach is SOFT, so he ends behind them
+  /// rather than before them.
+  MapView discourage(const MapView& map);
 
  private:
   static constexpr std::size_t kMost = 16;
@@ -110,15 +119,16 @@ class Movers {
   [[nodiscard]] static bool was_open(const Past& past, const Eigen::Vector2d& place_m);
   /// Little else stands around it.
   [[nodiscard]] static bool is_alone(const MapView& map, const Eigen::Vector2d& place_m);
-  /// The middle of what stands there with nothing else around it; nothing: there is no such thing.
-  [[nodiscard]] static std::optional<Eigen::Vector2d> alone_at(const MapView& map,
-                                                               const Eigen::Vector2d& place_m);
   void find(const MapView& map, const Past& past, const Eigen::Vector2d& vehicle_m);
   void add(const Eigen::Vector2d& place_m);
-  void follow(const MapView& map);
+  void follow(const MapView& map, const Eigen::Vector2d& vehicle_m);
+  /// Follows who has set off from where he stood.
+  void begin(const Standers::SetOff& one, std::int64_t stamp_ns);
+  [[nodiscard]] static std::int64_t hold_ns(const Track& track, const Eigen::Vector2d& vehicle_m);
   /// Whose these columns are: the nearest of those that can have come there; nullptr: of none.
   [[nodiscard]] Track* track_of(const Eigen::Vector2d& middle_m, std::int64_t stamp_ns);
   static void go_on(const MapView& map, const Eigen::Vector2d& middle_m, bool alone, Track& track);
+  void mark(const Cells& cells, const std::vector<Disc>& discs, std::uint8_t flag);
   [[nodiscard]] static Disc ahead_of(const Track& track, double ahead_m);
   void close_ahead(std::int64_t stamp_ns, const Eigen::Vector2d& vehicle_m, double speed_mps);
 
@@ -127,8 +137,10 @@ class Movers {
   std::size_t taken_ = 0;
   std::optional<std::int64_t> observed_ns_;  ///< The stamp of the newest map.
   std::vector<Found> found_;
+  Standers standers_;
   std::vector<Track> tracks_;
   std::vector<Disc> discs_;
+  std::vector<Disc> before_;  ///< Where they get later.
   Eigen::Vector2d waits_at_m_ = Eigen::Vector2d::Zero();
   std::int64_t waits_at_ns_ = 0;  ///< When it last did.
   std::int64_t waited_ns_ = 0;

@@ -105,6 +105,39 @@ TEST_CASE("what walks is closed as far as it gets until the vehicle is there or 
   }
 }
 
+TEST_CASE("who is lost beside the vehicle is waited for until he has had time to go by") {
+  for (const double beside_m : {2.5, 3.5}) {
+    SmallMap map(64);
+    Sight sight(map);
+    for (int turn = 0; turn < 12; ++turn) sight.look_at(30 + turn / 2, 25, kHard);
+    REQUIRE_FALSE(sight.movers.empty());
+    map.flags.assign(map.flags.size(), 0);
+    const Vector2d from_m(35.5 * 0.4, 10.2 - beside_m);
+    for (int turn = 0; turn < 28; ++turn) sight.look(0, from_m);
+    CHECK(sight.movers.empty() == (beside_m > 3));
+    for (int turn = 0; turn < 5; ++turn) sight.look(0, from_m);
+    CHECK(sight.movers.empty());
+  }
+}
+
+TEST_CASE(
+    "what is before who walks is SOFT: it costs to pass there; for who brakes all that he can reach is") {
+  SmallMap map(64);
+  Sight sight(map);
+  for (int turn = 0; turn < 12; ++turn) sight.look_at(20 + turn / 2, 25, kHard);
+  const auto flag = [&](const planner::MapView& view, double ahead_m) {
+    return view.flags[view.cells().index_of(25.5 * 0.4 + ahead_m, 10.2)];
+  };
+  const planner::MapView seen = map.view(sight.stamp_ns);
+  CHECK((flag(sight.movers.close(seen), 1) & kHard) != 0);
+  CHECK(flag(sight.movers.close(seen), 4) == kSoft);
+  CHECK(flag(sight.movers.close(seen), 10) == 0);
+  CHECK(flag(sight.movers.close(seen), -2) == 0);
+  CHECK(flag(sight.movers.discourage(seen), 1) == kSoft);
+  CHECK(flag(sight.movers.discourage(seen), 0) == (kHard | kSoft));
+  CHECK(flag(sight.movers.discourage(seen), 4) == 0);
+}
+
 TEST_CASE("he is seen to walk at any rate of maps, and by each of them once") {
   for (const int per_turn : {1, 2, 5, 10}) {
     SmallMap map(64);
@@ -278,7 +311,7 @@ void meets(std::uint8_t flag, double stands_mps, Place place_m) {
   CAPTURE(int{flag}, nearest_m, time_s, loop.vehicle.pose().x_m);
   CHECK(arrives);
   CHECK(nearest_m > 0.1);
-  CHECK(time_s < 22);
+  CHECK(time_s < 26);
 }
 
 TEST_CASE("the vehicle does not hit who crosses its way, and drives on when he is by") {
@@ -288,6 +321,19 @@ TEST_CASE("the vehicle does not hit who crosses its way, and drives on when he i
         CAPTURE(walks_mps, early_s);
         meets(flag, 0.05,
               [&](double time_s) { return Vector2d(25, 25 + walks_mps * (time_s + early_s - kThere_s)); });
+      }
+}
+
+// By the way, 1 to 2 m beside the vehicle's side; it stops within 6 m from where it is told.
+TEST_CASE("nor who stood by its way, and steps into it when it is ten metres away") {
+  for (const std::uint8_t flag : {kHard, kSoft})
+    for (const double beside_m : {2.0, 2.5, 3.0})
+      for (const double away_m : {10.0, 11.0, 12.0}) {
+        CAPTURE(beside_m, away_m);
+        const double sets_off_s = kThere_s - away_m / 4.5;
+        meets(flag, 0.05, [&](double time_s) {
+          return Vector2d(25, 25 - beside_m + 1.4 * std::clamp(time_s - sets_off_s, 0.0, 10.0));
+        });
       }
 }
 
