@@ -51,8 +51,7 @@ tl::expected<bridge::Sinks, ConfigError> open_sinks(const services::VehicleConfi
 
 /// What only the bridge can say of its keys.
 tl::expected<void, ConfigError> check(const services::VehicleConfig& config) {
-  if (auto settings = bridge::message_settings(config); !settings) return tl::unexpected(settings.error());
-  if (auto topics = bridge::recorded_topics(config); !topics) return tl::unexpected(topics.error());
+  if (auto names = bridge::check_names(config); !names) return names;
   const bridge::BridgeConfig& keys = config.bridge;
   if (keys.foxglove.address.empty() && keys.mcap.folder.empty() && keys.ros2.distro.empty())
     return tl::unexpected(ConfigError{config.path, "bridge",

@@ -94,4 +94,11 @@ tl::expected<std::set<TopicId>, ConfigError> ros2_topics(const services::Vehicle
   return topics_of(config, "bridge.ros2.topics", config.bridge.ros2.topics);
 }
 
+tl::expected<void, ConfigError> check_names(const services::VehicleConfig& config) {
+  if (auto settings = message_settings(config); !settings) return tl::unexpected(settings.error());
+  if (auto topics = recorded_topics(config); !topics) return tl::unexpected(topics.error());
+  if (auto topics = ros2_topics(config); !topics) return tl::unexpected(topics.error());
+  return {};
+}
+
 }  // namespace gvom::bridge

@@ -30,6 +30,9 @@ tl::expected<std::set<TopicId>, services::ConfigError> recorded_topics(const ser
 /// `bridge.ros2.topics`; errors likewise.
 tl::expected<std::set<TopicId>, services::ConfigError> ros2_topics(const services::VehicleConfig& config);
 
+/// The error of the first of these that has one: what a vehicle's file says of the bridge, wherever it runs.
+tl::expected<void, services::ConfigError> check_names(const services::VehicleConfig& config);
+
 /// The parts between commas, without blanks around them; empty ones are left out.
 std::vector<std::string> split_list(const std::string& text);
 

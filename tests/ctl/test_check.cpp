@@ -105,6 +105,20 @@ TEST_CASE("check: what does not work here is an error, and the rest is looked at
   fails({"fusion.backend=cuda"}, "error    fusion.backend    cuda cannot start:");
 }
 
+TEST_CASE("check and reload: names that only the bridge looks up make the file wrong, too") {
+  const Checked checked;
+  for (const char* set : {"bridge.mcap.topics=/costmap", "bridge.ros2.topics=/costmap",
+                          "bridge.points_layers=/costmap", "bridge.base_frame=/costmap"})
+    for (const char* command : {"check", "reload"}) {
+      std::vector<std::string> arguments{command, checked.vehicle.file, "--set", set};
+      if (arguments[0] == "reload") arguments.insert(arguments.begin() + 1, "--config");
+      const Ended ended = run("gvomctl", arguments, checked.folder.path());
+      INFO(ended.output);
+      CHECK(ended.code == 78);
+      CHECK_THAT(ended.output, Contains(std::string(set).substr(0, std::string(set).find('='))));
+    }
+}
+
 TEST_CASE("gvom-ingest --check opens the source and decodes a sweep of a recording") {
   const Checked checked;
   const auto check = [&](const std::string& set) {

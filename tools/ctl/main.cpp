@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstring>
 
+#include "services/bridge/settings.hpp"
 #include "services/common/config_concerns.hpp"
 #include "services/common/log.hpp"
 #include "tools/common/broker_user.hpp"
@@ -98,8 +99,17 @@ int say(const services::ConfigError& error) {
   return to_int(ExitCode::configuration);
 }
 
+/// As every process that reads it would, the bridge too.
+tl::expected<services::VehicleConfig, services::ConfigError> load(const std::string& path,
+                                                                  const std::vector<std::string>& sets) {
+  auto config = services::load_vehicle_config(path, sets);
+  if (!config) return config;
+  if (auto names = bridge::check_names(*config); !names) return tl::unexpected(names.error());
+  return config;
+}
+
 int check(const Options& options) {
-  const auto config = services::load_vehicle_config(options.config, options.sets);
+  const auto config = load(options.config, options.sets);
   return config ? ctl::show_check(*config, options.json) : say(config.error());
 }
 
@@ -110,7 +120,7 @@ int reload(const Options& options) {
   }
   services::Lifecycle lifecycle;
   const std::string path = options.config.empty() ? ctl::kInstalledVehicle : options.config;
-  const auto config = services::load_vehicle_config(path, options.sets);
+  const auto config = load(path, options.sets);
   if (!config) {
     std::fprintf(stderr, "%s; nothing was changed\n", config.error().text().c_str());
     return to_int(ExitCode::configuration);
