@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "services/planner/carried_cells.hpp"
@@ -9,25 +10,37 @@
 namespace gvom::planner {
 
 /// The map forgets after a while (R17), and assumes ground around the vehicle (R9): one that stands beside a
-/// ditch in its lidar's blind ring would drive into it. Within that and `kBeyond_m` a column that was
-/// NEGATIVE or STEEP, or HARD from farther than that, stays so until ground is seen there without it.
+/// ditch or a rock in its lidar's blind ring would drive into it. Within that and `kBeyond_m` a column that
+/// was NEGATIVE or STEEP, or HARD from farther than that or for `kStood_ns`, stays so until ground is seen
+/// there without it. (Who walks by is HARD for less.)
 class KeptPlaces {
  public:
   static constexpr double kBeyond_m = 1;
+  static constexpr std::int64_t kStood_ns = 2'000'000'000;
 
   /// @param n_xy the largest map, columns along an edge
   /// @param blind_m nearer than this lidars may see no ground
   KeptPlaces(int n_xy, double blind_m);
 
   /// Forgets all: the map begins anew.
-  void clear() { lethal_.clear(); }
+  void clear() {
+    lethal_.clear();
+    stood_.clear();
+    counted_ns_.reset();
+  }
   /// Each cycle with a map. @return the map with flags that hold that. It borrows the map's arrays, and is
   /// valid until the next call.
   MapView keep(const MapView& map, const Eigen::Vector2d& vehicle_m);
 
  private:
+  static constexpr std::int64_t kTick_ns = 50'000'000;
+
+  void count(const MapView& map);
+
   double near_m_;
-  CarriedCells lethal_;  ///< ColumnFlags.
+  CarriedCells lethal_;                     ///< ColumnFlags.
+  CarriedCells stood_;                      ///< For so many ticks it has been HARD, at most `kStood_ns`.
+  std::optional<std::int64_t> counted_ns_;  ///< The ticks up to then.
   std::vector<std::uint8_t> flags_;
 };
 

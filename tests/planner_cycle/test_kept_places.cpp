@@ -18,6 +18,7 @@ struct Ground {
 
   SmallMap map{64};
   KeptPlaces kept;
+  std::int64_t stamp_ns = 0;
 
   void set(std::uint8_t flags, Visibility visibility) {
     map.where(box(kDitch_x_m - 0.5, 0, kDitch_x_m + 0.5, 25), [&](std::size_t i) {
@@ -26,8 +27,9 @@ struct Ground {
     });
   }
   /// Of the ditch's middle, for a vehicle so far before it.
-  std::uint8_t look(double away_m) {
-    const planner::MapView view = kept.keep(map.view(), {kDitch_x_m - away_m, kDitch_y_m});
+  std::uint8_t look(double away_m, std::int64_t later_ns = 0) {
+    stamp_ns += later_ns;
+    const planner::MapView view = kept.keep(map.view(stamp_ns), {kDitch_x_m - away_m, kDitch_y_m});
     return view.flags[map.cells().index_of(kDitch_x_m, kDitch_y_m)];
   }
 };
@@ -67,6 +69,24 @@ TEST_CASE("what was hard from afar stays hard; what turned hard beside the vehic
   CHECK(anew.look(3) == kHard);
   anew.set(0, Visibility::unobserved);
   CHECK(anew.look(3) == 0);
+}
+
+TEST_CASE("unless it was hard for two seconds, at any rate of maps: that stands, and who walks by does not") {
+  for (const std::int64_t turn_ns : {20'000'000, 37'000'000, 100'000'000, 333'000'000})
+    for (const double hard_s : {1.5, 2.5}) {
+      Ground ground;
+      ground.set(kHard, Visibility::ground_seen);
+      const std::int64_t end_ns = static_cast<std::int64_t>(1e9 * hard_s);
+      for (std::int64_t at_ns = 0; at_ns < end_ns; at_ns += turn_ns) {
+        ground.look(2, turn_ns);
+        ground.look(2);  // the same map, in the next cycle
+      }
+      ground.set(0, Visibility::ground_assumed);
+      CAPTURE(turn_ns, hard_s);
+      CHECK(ground.look(2, turn_ns) == (hard_s > 2 ? kHard : 0));
+      ground.set(0, Visibility::ground_seen);
+      CHECK(ground.look(2, turn_ns) == 0);
+    }
 }
 
 TEST_CASE("from afar the map alone is right, and a map that begins anew knows nothing") {
