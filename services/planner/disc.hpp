@@ -21,7 +21,7 @@ class DiscRows {
     for (int y = std::max(0, y0 - reach); y <= std::min(cells_.n - 1, y0 + reach); ++y)
       for (int x = std::max(0, x0 - reach); x <= std::min(cells_.n - 1, x0 + reach); ++x) {
         const int index = y * cells_.n + x;
-        if ((cells_.center_of(index) - middle_m_).norm() <= radius_m_) visit(index);
+        if ((cells_.center_of(index) - middle_m_).squaredNorm() <= radius_m_ * radius_m_) visit(index);
       }
   }
 

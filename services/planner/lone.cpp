@@ -3,25 +3,26 @@
 namespace gvom::planner {
 namespace {
 
-constexpr double kSmallest_m2 = 0.1;  // less is a blade of grass
+constexpr double kSmallest_m2 = 0.1;
+constexpr double kLargest_m2 = 1.2;  // more does not fit in the disc that is looked at
 
 }  // namespace
 
-std::optional<Eigen::Vector2d> lone_at(const MapView& map, const Eigen::Vector2d& place_m) {
+std::optional<Lone> lone_at(const MapView& map, const Eigen::Vector2d& place_m) {
   const Cells cells = map.cells();
   const auto stands = [&](int cell) { return (map.flags[cell] & kStands) != 0; };
-  int standing = 0;
-  Eigen::Vector2d middle_m(0, 0);
+  Lone lone;
   DiscRows(cells, place_m, kPersonWide_m).for_each([&](int cell) {
-    if (stands(cell)) middle_m += (cells.center_of(cell) - middle_m) / ++standing;
+    if (stands(cell)) lone.middle_m += (cells.center_of(cell) - lone.middle_m) / ++lone.columns;
   });
-  if (standing * cells.cell_m * cells.cell_m < kSmallest_m2) return std::nullopt;
+  const double area_m2 = lone.columns * cells.cell_m * cells.cell_m;
+  if (area_m2 < kSmallest_m2 || area_m2 > kLargest_m2) return std::nullopt;
   const double edge_m = kPersonWide_m / 2 + cells.cell_m;
   bool alone = true;
-  DiscRows(cells, middle_m, kAlone_m).for_each([&](int cell) {
-    if (stands(cell) && (cells.center_of(cell) - middle_m).norm() > edge_m) alone = false;
+  DiscRows(cells, lone.middle_m, kAlone_m).for_each([&](int cell) {
+    if (stands(cell) && (cells.center_of(cell) - lone.middle_m).norm() > edge_m) alone = false;
   });
-  return alone ? std::optional(middle_m) : std::nullopt;
+  return alone ? std::optional(lone) : std::nullopt;
 }
 
 }  // namespace gvom::planner

@@ -29,7 +29,8 @@ bool any_near(const Cells& cells, int index, double reach_m, IsSo is_so) {
 
 }  // namespace
 
-Movers::Movers(const VehicleLimits& vehicle, int n_xy) : vehicle_(vehicle) {
+Movers::Movers(const VehicleLimits& vehicle, int n_xy, double blind_m)
+    : vehicle_(vehicle), beside_m_(blind_m + 1) {
   const auto count = static_cast<std::size_t>(n_xy) * static_cast<std::size_t>(n_xy);
   for (Past& past : pasts_) {
     past.known.resize(count);
@@ -140,17 +141,17 @@ void Movers::follow(const MapView& map, const Eigen::Vector2d& vehicle_m) {
   const double cell_m = map.cells().cell_m;
   for (const Found& found : found_) {
     if (found.columns * cell_m * cell_m > kLargest_m2) continue;
-    const auto alone_m = lone_at(map, found.middle_m);
-    const Eigen::Vector2d middle_m = alone_m.value_or(found.middle_m);
+    const auto lone = lone_at(map, found.middle_m);
+    const Eigen::Vector2d middle_m = lone ? lone->middle_m : found.middle_m;
     if (Track* const track = track_of(middle_m, stamp_ns))
-      go_on(map, middle_m, alone_m.has_value(), *track);
-    else if (tracks_.size() < kMost)
-      tracks_.push_back({middle_m, stamp_ns, middle_m, stamp_ns});
+      go_on(map, middle_m, lone.has_value(), *track);
+    else if (Track* const added = add_track())
+      *added = {middle_m, stamp_ns, middle_m, stamp_ns};
   }
   for (Track& track : tracks_) {
     track.moves = track.moves && stamp_ns - track.moved_ns <= hold_ns(track, vehicle_m);
     if (!track.moves || track.seen_ns == stamp_ns) continue;
-    if (const auto alone_m = lone_at(map, track.middle_m)) go_on(map, *alone_m, true, track);
+    if (const auto lone = lone_at(map, track.middle_m)) go_on(map, lone->middle_m, true, track);
   }
   const auto is_over = [&](const Track& track) {
     return stamp_ns - track.seen_ns > hold_ns(track, vehicle_m);
@@ -159,8 +160,11 @@ void Movers::follow(const MapView& map, const Eigen::Vector2d& vehicle_m) {
 }
 
 void Movers::begin(const Standers::SetOff& one, std::int64_t stamp_ns) {
+  if (waited_ns_ > kPatience_ns) return;
   Track* track = track_of(one.middle_m, stamp_ns);
-  if (track == nullptr && tracks_.size() < kMost) track = &tracks_.emplace_back();
+  const bool is_his =
+      track != nullptr && (!track->moves || (track->middle_m - one.middle_m).norm() < kAround_m);
+  if (!is_his) track = add_track();
   if (track == nullptr) return;
   track->middle_m = track->from_m = one.middle_m;
   track->seen_ns = track->from_ns = track->moved_ns = stamp_ns;
@@ -168,8 +172,17 @@ void Movers::begin(const Standers::SetOff& one, std::int64_t stamp_ns) {
   track->moves = track->sure = true;
 }
 
-std::int64_t Movers::hold_ns(const Track& track, const Eigen::Vector2d& vehicle_m) {
-  return track.sure && (track.middle_m - vehicle_m).norm() < kBeside_m ? kHoldBeside_ns : kHold_ns;
+Movers::Track* Movers::add_track() {
+  if (tracks_.size() < kMost) return &tracks_.emplace_back();
+  Track* oldest = nullptr;
+  for (Track& track : tracks_)
+    if (!track.moves && (oldest == nullptr || track.seen_ns < oldest->seen_ns)) oldest = &track;
+  if (oldest != nullptr) *oldest = {};
+  return oldest;
+}
+
+std::int64_t Movers::hold_ns(const Track& track, const Eigen::Vector2d& vehicle_m) const {
+  return track.sure && (track.middle_m - vehicle_m).norm() < beside_m_ ? kHoldBeside_ns : kHold_ns;
 }
 
 Movers::Track* Movers::track_of(const Eigen::Vector2d& middle_m, std::int64_t stamp_ns) {

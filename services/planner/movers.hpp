@@ -33,8 +33,9 @@ class Movers {
   static constexpr std::int64_t kHold_ns = 1'200'000'000;
   static constexpr std::int64_t kTurns_ns = 500'000'000;  ///< Since it got on; then it may turn.
   static constexpr std::int64_t kPatience_ns = 5'000'000'000;
-  static constexpr double kBeside_m = 3;  ///< Nearer, the map keeps him where he was: he does not get on,
-  static constexpr std::int64_t kHoldBeside_ns = 3'000'000'000;  ///< and who is sure to move is held so long.
+  /// Within the blind ring and a metre the map keeps who walks where he was: he does not get on there, and
+  /// who is sure to move is held for so long.
+  static constexpr std::int64_t kHoldBeside_ns = 3'000'000'000;
   static constexpr double kHere_m = 1;  ///< So far from where it waited the vehicle has got on.
   static constexpr double kMoved_m = 0.5;
   static constexpr double kRuns_mps = 3;
@@ -56,7 +57,8 @@ class Movers {
   };
 
   /// @param n_xy the largest map, columns along an edge
-  Movers(const VehicleLimits& vehicle, int n_xy);
+  /// @param blind_m nearer than this lidars may see no ground
+  Movers(const VehicleLimits& vehicle, int n_xy, double blind_m);
 
   /// Forgets all: the map begins anew.
   void clear();
@@ -80,7 +82,7 @@ class Movers {
   MapView discourage(const MapView& map);
 
  private:
-  static constexpr std::size_t kMost = 16;
+  static constexpr std::size_t kMost = 64;
   static constexpr std::size_t kPasts = 16;
   static constexpr std::int64_t kPastEvery_ns = 50'000'000;
   static_assert((kPasts - 1) * kPastEvery_ns > kBack_ns);
@@ -124,7 +126,10 @@ class Movers {
   void follow(const MapView& map, const Eigen::Vector2d& vehicle_m);
   /// Follows who has set off from where he stood.
   void begin(const Standers::SetOff& one, std::int64_t stamp_ns);
-  [[nodiscard]] static std::int64_t hold_ns(const Track& track, const Eigen::Vector2d& vehicle_m);
+  [[nodiscard]] std::int64_t hold_ns(const Track& track, const Eigen::Vector2d& vehicle_m) const;
+  /// A new track; if there are `kMost`, in place of the one that does not move and was not seen for longest.
+  /// nullptr: all move.
+  Track* add_track();
   /// Whose these columns are: the nearest of those that can have come there; nullptr: of none.
   [[nodiscard]] Track* track_of(const Eigen::Vector2d& middle_m, std::int64_t stamp_ns);
   static void go_on(const MapView& map, const Eigen::Vector2d& middle_m, bool alone, Track& track);
@@ -133,6 +138,7 @@ class Movers {
   void close_ahead(std::int64_t stamp_ns, const Eigen::Vector2d& vehicle_m, double speed_mps);
 
   VehicleLimits vehicle_;
+  double beside_m_;
   std::array<Past, kPasts> pasts_;
   std::size_t taken_ = 0;
   std::optional<std::int64_t> observed_ns_;  ///< The stamp of the newest map.

@@ -42,7 +42,7 @@ Planner::Impl::Impl(const PlannerConfig& config, int n_xy)
       kept_(n_xy, config.blind_m),
       soft_(n_xy, config.blind_m),
       closed_(n_xy),
-      movers_(config.vehicle, n_xy),
+      movers_(config.vehicle, n_xy, config.blind_m),
       retreat_(config),
       course_(config),
       progress_(config.give_up_s) {
@@ -185,8 +185,9 @@ bool Planner::Impl::at_end() const {
 }
 
 void Planner::Impl::drive(const MapView& seen, const Senses& senses) {
-  const MapView map = soft_.soften(kept_.keep(seen, now_.pose.place()), now_.pose.place());
-  movers_.observe(map, now_.pose.place(), now_.speed_mps);
+  const MapView kept = kept_.keep(seen, now_.pose.place());
+  const MapView map = soft_.soften(kept, seen, now_.pose.place());
+  movers_.observe(kept_.holes(seen), now_.pose.place(), now_.speed_mps);
   view_ = movers_.close(closed_.close(map));
   costs_.update(view_);
   const Predicted& at = prediction_.from(now_);

@@ -38,10 +38,10 @@ void SoftPlaces::count(const MapView& map, const Eigen::Vector2d& vehicle_m) {
   }
 }
 
-MapView SoftPlaces::soften(const MapView& map, const Eigen::Vector2d& vehicle_m) {
+MapView SoftPlaces::soften(const MapView& map, const MapView& seen, const Eigen::Vector2d& vehicle_m) {
   const Cells cells = map.cells();
   states_.carry(cells);
-  if (counted_ns_ != map.stamp_ns) count(map, vehicle_m);
+  if (counted_ns_ != map.stamp_ns) count(seen, vehicle_m);
   counted_ns_ = map.stamp_ns;
   std::copy_n(map.flags, cells.count(), flags_.begin());
   DiscRows(cells, vehicle_m, near_m_).for_each([&](int cell) {

@@ -28,7 +28,9 @@ class SoftPlaces {
   }
   /// Each cycle with a map, which may be that of the cycle before. @return the map with flags that hold that.
   /// It borrows the map's arrays, and is valid until the next call.
-  MapView soften(const MapView& map, const Eigen::Vector2d& vehicle_m);
+  /// @param map what to soften: as it was seen, and what is kept
+  /// @param seen the same as it was seen
+  MapView soften(const MapView& map, const MapView& seen, const Eigen::Vector2d& vehicle_m);
 
  private:
   static constexpr std::uint8_t kWasHard = 255;

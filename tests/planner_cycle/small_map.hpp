@@ -15,11 +15,11 @@ class SmallMap {
 
   /// @param n columns along an edge, a multiple of 8
   /// @param x_m, y_m the lower corner in odom, multiples of a cell
-  explicit SmallMap(int n, double x_m = 0, double y_m = 0) {
+  explicit SmallMap(int n, double x_m = 0, double y_m = 0, double cell_m = kCell_m) {
     grid_.size = {n, n, 64};
-    grid_.origin = {static_cast<int>(std::lround(x_m / kCell_m)),
-                    static_cast<int>(std::lround(y_m / kCell_m)), 0};
-    grid_.resolution_m = {kCell_m, kCell_m, kCell_m};
+    grid_.origin = {static_cast<int>(std::lround(x_m / cell_m)), static_cast<int>(std::lround(y_m / cell_m)),
+                    0};
+    grid_.resolution_m = {cell_m, cell_m, cell_m};
     const auto count = static_cast<std::size_t>(n) * static_cast<std::size_t>(n);
     height.assign(count, 0);
     slope.assign(count, 0);

@@ -89,6 +89,32 @@ TEST_CASE("unless it was hard for two seconds, at any rate of maps: that stands,
     }
 }
 
+TEST_CASE("a pause between two maps is no time that it stood, and nothing is held for ever") {
+  Ground ground;
+  ground.set(0, Visibility::ground_assumed);
+  ground.look(2);
+  ground.set(kHard, Visibility::ground_assumed);
+  ground.look(2, 600'000'000'000);
+  ground.set(0, Visibility::ground_assumed);
+  CHECK(ground.look(2, 100'000'000) == 0);
+  ground.set(kHard, Visibility::ground_assumed);
+  for (int turn = 0; turn < 30; ++turn) ground.look(2, 100'000'000);
+  ground.set(0, Visibility::ground_assumed);
+  for (int turn = 0; turn < 290; ++turn) REQUIRE(ground.look(2, 100'000'000) == kHard);
+  for (int turn = 0; turn < 20; ++turn) ground.look(2, 100'000'000);
+  CHECK(ground.look(2, 100'000'000) == 0);
+}
+
+TEST_CASE("who looks for what moves sees holes kept, and nothing that was hard") {
+  Ground ground;
+  ground.set(kHard | kNegative, Visibility::unobserved);
+  for (int turn = 0; turn < 30; ++turn) ground.look(2, 100'000'000);
+  ground.set(0, Visibility::unobserved);
+  CHECK(ground.look(2, 100'000'000) == (kHard | kNegative));
+  const planner::MapView holes = ground.kept.holes(ground.map.view(ground.stamp_ns));
+  CHECK(holes.flags[ground.map.cells().index_of(kDitch_x_m, kDitch_y_m)] == kNegative);
+}
+
 TEST_CASE("from afar the map alone is right, and a map that begins anew knows nothing") {
   Ground ground;
   ground.set(kHard | kNegative, Visibility::unobserved);

@@ -52,7 +52,7 @@ class Walker {
 
 /// Movers as a planner of the map sees them.
 struct Sight {
-  explicit Sight(SmallMap& a_map) : map(a_map), movers({}, a_map.cells().n) {}
+  explicit Sight(SmallMap& a_map) : map(a_map), movers({}, a_map.cells().n, 2) {}
 
   void look(double speed_mps = 0, const Vector2d& from_m = {10, 10}) {
     stamp_ns += turn_ns;

@@ -14,6 +14,11 @@ using planner::SoftPlaces;
 
 constexpr double kBush_x_m = 15, kBush_y_m = 10.2;
 
+/// Where nothing is kept.
+planner::MapView soften(SoftPlaces& soft, const planner::MapView& map, const Eigen::Vector2d& vehicle_m) {
+  return soft.soften(map, map, vehicle_m);
+}
+
 /// A bush of five columns across, which the map has as `flag`.
 void place_bush(SmallMap& map, std::uint8_t flag) {
   std::fill(map.flags.begin(), map.flags.end(), std::uint8_t{0});
@@ -34,7 +39,7 @@ std::uint8_t flags_beside(std::uint8_t afar, std::uint8_t near) {
       return disc(kBush_x_m, kBush_y_m, 0.9)(x, y) && disc(vehicle_m.x(), vehicle_m.y(), 2.8)(x, y);
     };
     map.where(turned, [&](std::size_t i) { map.flags[i] = near; });
-    view = soft.soften(map.view(++stamp_ns), vehicle_m);
+    view = soften(soft, map.view(++stamp_ns), vehicle_m);
   }
   return view.flags[map.cells().index_of(kBush_x_m, kBush_y_m)];
 }
@@ -53,7 +58,7 @@ TEST_CASE("what became hard before it was near is hard, and so is what was never
   std::int64_t stamp_ns = 0;
   const auto look = [&](std::uint8_t flag, double away_m) {
     place_bush(map, flag);
-    return soft.soften(map.view(++stamp_ns), {kBush_x_m - away_m, kBush_y_m}).flags[middle];
+    return soften(soft, map.view(++stamp_ns), {kBush_x_m - away_m, kBush_y_m}).flags[middle];
   };
   for (int i = 0; i < SoftPlaces::kSure; ++i) look(kSoft, 6);
   look(kHard, 5);
@@ -68,9 +73,9 @@ TEST_CASE("a map that is looked at again counts once") {
   SmallMap map(64);
   SoftPlaces soft(64, 3);
   place_bush(map, kSoft);
-  for (int i = 0; i < 2 * SoftPlaces::kSure; ++i) soft.soften(map.view(1), {kBush_x_m - 6, kBush_y_m});
+  for (int i = 0; i < 2 * SoftPlaces::kSure; ++i) soften(soft, map.view(1), {kBush_x_m - 6, kBush_y_m});
   place_bush(map, kHard);
-  const planner::MapView view = soft.soften(map.view(2), {kBush_x_m - 2, kBush_y_m});
+  const planner::MapView view = soften(soft, map.view(2), {kBush_x_m - 2, kBush_y_m});
   CHECK(view.flags[map.cells().index_of(kBush_x_m, kBush_y_m)] == kHard);
 }
 
@@ -79,11 +84,11 @@ TEST_CASE("what was soft is known by its place when the map moves on") {
   for (int i = 0; i < SoftPlaces::kSure; ++i) {
     SmallMap before(64);
     place_bush(before, kSoft);
-    soft.soften(before.view(i), {kBush_x_m - 6, kBush_y_m});
+    soften(soft, before.view(i), {kBush_x_m - 6, kBush_y_m});
   }
   SmallMap after(64, 2.4, -1.6);
   place_bush(after, kHard);
-  const planner::MapView view = soft.soften(after.view(SoftPlaces::kSure), {kBush_x_m - 2, kBush_y_m});
+  const planner::MapView view = soften(soft, after.view(SoftPlaces::kSure), {kBush_x_m - 2, kBush_y_m});
   CHECK(view.flags[after.cells().index_of(kBush_x_m, kBush_y_m)] == kSoft);
 }
 
@@ -112,6 +117,17 @@ TEST_CASE("the vehicle drives through grass that turns hard within its lidars' b
   CHECK(slowest_through_grass_mps(3, 2.5).value_or(0) > 3);
   CHECK(slowest_through_grass_mps(6, 5.5).value_or(0) > 3);
   CHECK_FALSE(slowest_through_grass_mps(3, 5.5));
+}
+
+TEST_CASE("what is kept as hard is softened, too, and says nothing of what was seen") {
+  SmallMap map(64), kept(64);
+  map.where(disc(kBush_x_m, kBush_y_m, 0.8), [&](std::size_t i) { map.flags[i] = kSoft; });
+  kept.obstacle(disc(kBush_x_m, kBush_y_m, 0.8));
+  SoftPlaces soft(64, 3);
+  const int middle = map.cells().index_of(kBush_x_m, kBush_y_m);
+  for (int i = 1; i <= SoftPlaces::kSure; ++i)
+    soft.soften(kept.view(i), map.view(i), {kBush_x_m - 3.5, kBush_y_m});
+  CHECK(soft.soften(kept.view(9), map.view(9), {kBush_x_m - 2, kBush_y_m}).flags[middle] == kSoft);
 }
 
 }  // namespace
