@@ -21,17 +21,16 @@ build() {  # build TARGET...
 
 # Maps, plans and Health for a browser and Foxglove, and as a file. What others may see of it takes no time from the map.
 start_bridge() {
-  local recorded="$out/mcap"
-  rm -rf "$recorded"
-  if [[ -n $looped ]]; then recorded=''; fi
+  recorded=''
+  if [[ -z $looped ]]; then recorded=$(mktemp -d "$out/mcap.XXXXXX"); fi
   start gvom-bridge nice -n 10 "$bin/gvom-bridge" "${config[@]}" --set "bridge.mcap.folder='$recorded'" --set bridge.mcap.split_mb=1048576
   echo "demo: to watch it: $page (Foxglove: ws://127.0.0.1:8765)"
 }
 
 keep_recorded() {  # the bridge's file, under a name that is easily found
   local files
-  mapfile -t files < <(compgen -G "$out/mcap/*.mcap")
-  ((${#files[@]} == 1)) || fail 70 "$out/mcap: one file was expected, there are ${#files[@]}"
+  mapfile -t files < <(find "$recorded" -name '*.mcap')
+  ((${#files[@]} == 1)) || fail 70 "$recorded: one file was expected, there are ${#files[@]}"
   mv "${files[0]}" "$out/demo.mcap"
-  rmdir "$out/mcap"
+  rmdir "$recorded"
 }

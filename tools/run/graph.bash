@@ -6,18 +6,19 @@ declare -A pid_of=()  # the processes that this started and that have not been w
 # In the order in which they are stopped: the broker last, for who still lives when it goes aborts.
 order() { printf '%s\n' gvom-drive gvom-planner gvom-odometry "${lidars[@]/#/gvom-ingest-}" gvom-fusion gvom-snapshot gvom-bridge gvom-summary gvom-roudi; }
 
-# In a session of its own, so that a Ctrl-C reaches this script alone, which then stops all in the right order.
+# In a session of its own, so that a Ctrl-C reaches this script alone, which then stops all in the right order; and it
+# does not outlive a script that is killed. The log is emptied first: the last run's words are none of this one.
 start() {  # start NAME COMMAND...
   local name=$1
   shift
-  setsid "$@" > "$logs/$name.log" 2>&1 < /dev/null &
+  : > "$logs/$name.log"
+  setsid setpriv --pdeathsig TERM "$@" > "$logs/$name.log" 2>&1 < /dev/null &
   pid_of[$name]=$!
 }
 
 stop() {  # stop NAME: returns its exit code
   local pid=${pid_of[$1]:-} code=0 i
   [[ -n $pid ]] || return 0
-  unset "pid_of[$1]"
   kill -TERM "$pid" 2> /dev/null || true
   for ((i = 0; i < 200; ++i)); do
     kill -0 "$pid" 2> /dev/null || break
@@ -25,6 +26,7 @@ stop() {  # stop NAME: returns its exit code
   done
   if kill -KILL "$pid" 2> /dev/null; then echo "${0##*/}: $1 did not stop: killed" >&2; fi
   wait "$pid" || code=$?
+  unset "pid_of[$1]"
   if ((code == 143)); then code=0; fi  # SIGTERM came before it had begun
   return "$code"
 }
@@ -82,8 +84,8 @@ start_broker() {
   await_words gvom-roudi 'is up after' || code=$?
   case $code in
     0) return ;;
-    75) echo "${0##*/}: another broker runs on this machine; this leaves it alone. Stop it first." >&2 ;;
-    69) echo "${0##*/}: $shared_memory_advice" >&2 ;;
+    75) echo "${0##*/}: another broker runs on this machine; this leaves it alone. Stop it first: $(pgrep -a gvom-roudi)" >&2 ;;
+    69) if grep -q /dev/shm "$logs/gvom-roudi.log"; then echo "${0##*/}: $shared_memory_advice" >&2; fi ;;
   esac
   give_up gvom-roudi "$code"
 }
@@ -99,7 +101,7 @@ start_readers() {
 start_summary() {  # start_summary [NAME...]: these publish no Health
   local name also=()
   for name in gvom-roudi "$@"; do also+=(--also "$name=${pid_of[$name]}"); done
-  setsid "$bin/gvom-summary" "${config[@]}" --json "$out/summary.json" --progress "${also[@]}" \
+  setsid setpriv --pdeathsig TERM "$bin/gvom-summary" "${config[@]}" --json "$out/summary.json" --progress "${also[@]}" \
     2> "$logs/gvom-summary.log" < /dev/null &
   pid_of[gvom-summary]=$!
 }
