@@ -58,7 +58,7 @@ give_up() {  # give_up NAME CODE: a process ended that should not have
   exit "$code"
 }
 
-shared_memory_advice="In a container: start it with --shm-size=2g. Elsewhere: mount -o remount,size=2G /dev/shm"
+shared_memory_advice="In a container: start it with --shm-size=4g. Elsewhere: mount -o remount,size=4G /dev/shm"
 
 list_lidars() {
   local printed
