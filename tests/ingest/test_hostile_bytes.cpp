@@ -12,13 +12,20 @@ using namespace std::string_literals;
 
 namespace {
 
-void drain(const std::string& uri) {
+/// What was tried: a test of input that is all refused at once has tried nothing.
+struct Tried {
+  int opened = 0, sweeps = 0;
+};
+
+void drain(const std::string& uri, Tried& tried) {
   auto source = ingest::open_source(uri, {0.0, 5000});
   if (!source) return;
+  ++tried.opened;
   Sweep sweep;
   for (;;) {
     const auto event = (*source)->next(sweep, std::chrono::milliseconds(0));
     if (!event || *event == SourceEvent::kEnd) return;
+    ++tried.sweeps;
     REQUIRE(sweep.returns.size() <= 5000);
     REQUIRE_FALSE(sweep.times_ns.empty());
     for (const Return& r : sweep.returns) REQUIRE(r.time_index < sweep.times_ns.size());
@@ -35,6 +42,7 @@ ByteVector damaged(ByteVector bytes, std::mt19937& random, std::size_t from, int
 
 /// Frames with a valid way to the payload, the payload damaged; and frames damaged anywhere.
 void try_payloads(const ByteVector& payload, const std::string& options, const std::string& scheme) {
+  Tried tried;
   std::mt19937 random(7);
   TemporaryFolder folder;
   for (int round = 0; round < 20; ++round) {
@@ -45,8 +53,11 @@ void try_payloads(const ByteVector& payload, const std::string& options, const s
       pcap.add(damaged(frame(payload), random, 0, 4));
       for (const auto& part : fragments(payload, 400)) pcap.add(damaged(part, random, 14, 1));
     }
-    drain(scheme + ":" + pcap.write() + options);
+    drain(scheme + ":" + pcap.write() + options, tried);
   }
+  CAPTURE(scheme, options);
+  CHECK(tried.opened == 20);
+  CHECK(tried.sweeps > 0);
 }
 
 }  // namespace
@@ -84,6 +95,7 @@ TEST_CASE("damaged Velodyne packets") {
 }
 
 TEST_CASE("damaged captures, metadata and point clouds") {
+  Tried captures, metadata, clouds;
   std::mt19937 random(5);
   TemporaryFolder folder;
   const OusterSensor sensor;
@@ -100,14 +112,18 @@ TEST_CASE("damaged captures, metadata and point clouds") {
     return write_text(folder.path() + name, std::string(bytes.begin(), bytes.end()));
   };
   for (int round = 0; round < 500; ++round) {
-    drain("ouster:" + write("/b.pcap", damaged(capture, random, 0, 3)) + "?meta=" + meta);
+    drain("ouster:" + write("/b.pcap", damaged(capture, random, 0, 3)) + "?meta=" + meta, captures);
     const std::string other = write("/b.json", damaged(ByteVector(json.begin(), json.end()), random, 0, 2));
-    drain("ouster:" + folder.path() + "/a.pcap?meta=" + other);
+    drain("ouster:" + folder.path() + "/a.pcap?meta=" + other, metadata);
     for (const std::string& data :
          {"ascii\n1 2 3 4\n5 6 7 8\n"s, "binary\n0123456789012345678901234567890123456789"s,
           "binary_compressed\n\x10\0\0\0\x28\0\0\0aaaaaaaaaaaaaaaa"s}) {
       const std::string text = cloud + data;
-      drain("scans:" + write("/b.pcd", damaged(ByteVector(text.begin(), text.end()), random, 0, 2)));
+      drain("scans:" + write("/b.pcd", damaged(ByteVector(text.begin(), text.end()), random, 0, 2)), clouds);
     }
+  }
+  for (const Tried& tried : {captures, metadata, clouds}) {
+    CHECK(tried.opened > 0);
+    CHECK(tried.sweeps > 0);
   }
 }

@@ -20,7 +20,9 @@ struct Loop {
 
   /// One cycle, and the vehicle's way until the next.
   const planner::Plan& step() {
-    const planner::State state = vehicle.state();
+    planner::State state = vehicle.state();
+    state.stamp_ns += ahead_ns;
+    if (falls_back_each > 0 && ++cycles % falls_back_each == 0) state.stamp_ns -= falls_back_ns;
     const planner::MapView view = map.view(state.stamp_ns);
     const planner::Plan& plan = planner.cycle(&view, state, senses);
     vehicle.drive(plan.command, period_s);
@@ -42,6 +44,10 @@ struct Loop {
   planner::Planner planner;
   planner::Senses senses;
   double period_s;
+  std::int64_t ahead_ns = 0;  ///< Of the odometry's clock.
+  int falls_back_each = 0;    ///< In each such cycle a pose is so much older:
+  std::int64_t falls_back_ns = 23'000'000;
+  int cycles = 0;
 };
 
 }  // namespace gvom::test

@@ -54,19 +54,27 @@ TEST_CASE("It backs out of a dead end that showed late, and arrives by the other
   CHECK(backed_m > farthest_m - 14);  // out of the lane's mouth
 }
 
+/// A lane that only the search believes to lead on: its end is a slit for a vehicle that can turn on the
+/// spot.
+struct Lane {
+  explicit Lane(const PlannerConfig& config) : loop(config, map, {5, 25, 0}) {
+    map.obstacle(box(0, 26.8, 28, 52));
+    map.obstacle(box(0, 0, 26, 23.2));
+    map.obstacle(box(28.4, 18, 29.2, 52));
+    map.obstacle(box(25.6, 18, 26.4, 23.2));
+    loop.planner.set_course({{36, 14}});
+  }
+  SmallMap map{128};
+  Loop loop;
+};
+
 TEST_CASE("It backs no farther than it may, and not where no lidar looks") {
   for (const bool blind : {false, true}) {
     PlannerConfig config = long_vehicle();
     config.back_out_m = 3;
     config.give_up_s = 12;
-    // A lane that only the search believes to lead on: a slit for a vehicle that can turn on the spot.
-    SmallMap map(128);
-    map.obstacle(box(0, 26.8, 28, 52));
-    map.obstacle(box(0, 0, 26, 23.2));
-    map.obstacle(box(28.4, 18, 29.2, 52));
-    map.obstacle(box(25.6, 18, 26.4, 23.2));
-    Loop loop(config, map, {5, 25, 0});
-    loop.planner.set_course({{36, 14}});
+    Lane lane(config);
+    Loop& loop = lane.loop;
     loop.senses.blind_behind = blind;
     double farthest_m = 0, backed_m = 0, most_backed_m = 0;
     Mode last = Mode::stop;
@@ -81,6 +89,29 @@ TEST_CASE("It backs no farther than it may, and not where no lidar looks") {
     CHECK(most_backed_m < 3.6);
     CHECK((most_backed_m > 2) == !blind);
     if (blind) CHECK_THAT(loop.step().why, Catch::Contains("gave up"));
+  }
+}
+
+TEST_CASE("poses that are a little older than those before do not restart its patience") {
+  PlannerConfig config = long_vehicle();
+  config.rate_hz = 50;
+  Lane lane(config);
+  lane.loop.falls_back_each = 3;
+  CHECK(lane.loop.until(Mode::back, 30));
+}
+
+TEST_CASE("a clock that leaps restarts its patience: it neither backs at once nor never") {
+  for (const std::int64_t leap_ns : {3'600'000'000'000, -1'800'000'000'000}) {
+    Lane lane(long_vehicle());
+    const auto stands = [&](const Plan& plan) {
+      return plan.reason == Reason::no_trajectory && lane.loop.vehicle.speed_mps() == 0;
+    };
+    bool blocked = false;
+    for (int i = 0; i < 300 && !blocked; ++i) blocked = stands(lane.loop.step());
+    REQUIRE(blocked);
+    lane.loop.ahead_ns = leap_ns;
+    for (int i = 0; i < 8; ++i) CHECK(lane.loop.step().mode != Mode::back);
+    CHECK(lane.loop.until(Mode::back, 3));
   }
 }
 

@@ -148,24 +148,6 @@ TEST_CASE("Time without a map, or with a blind side, is no reason to give up") {
   CHECK(loop.step().mode == Mode::drive);
 }
 
-TEST_CASE("A clock that leaps is no reason to give up, nor to back") {
-  Flat flat;
-  flat.config.give_up_s = 5;
-  flat.map.obstacle(box(16, 0, 17.2, 52));  // it stands before it
-  planner::Planner planner(flat.config, 128);
-  planner.set_course({{40, 25}});
-  planner::State state;
-  state.T_odom_base.translation_m = {10, 25, 0};
-  for (const std::int64_t leap_ns : {3'600'000'000'000, -1'800'000'000'000}) {
-    for (int i = 0; i < 3; ++i) {
-      state.stamp_ns += 100'000'000;
-      const planner::MapView view = flat.map.view(state.stamp_ns);
-      CHECK(planner.cycle(&view, state, {}).mode == Mode::stop);
-    }
-    state.stamp_ns += leap_ns;
-  }
-}
-
 TEST_CASE("A waypoint deep in an obstacle is none") {
   Flat flat;
   flat.map.obstacle(disc(40, 25, 6));

@@ -260,3 +260,16 @@ TEST_CASE("of scans with one of an impossible size those before are mapped") {
   fs::resize_file(scans + "/100003.bin", fs::file_size(scans + "/100003.bin") - 3);
   check_good_part(drive.with("lidars.front.source=scans:" + scans), 3, kBadData, "100003.bin");
 }
+
+TEST_CASE("gvom-drive in real time takes nothing that is of many drives") {
+  const TemporaryFolder folder;
+  const std::string rows = folder.path() + "/rows.csv";
+  for (const Words& more :
+       {Words{"--rows", rows}, Words{"--ablation", "deskew-off"}, Words{"--course", "test-1", "--figures"}}) {
+    Words arguments{"--config", GVOM_SOURCE_DIR "/config/vehicles/warthog.yaml", "--real-time", "--out",
+                    folder.path() + "/out"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    check_refused("gvom-drive", arguments, folder.path(), kUsage, {"--real-time drives one world as it is"});
+  }
+  CHECK_FALSE(fs::exists(rows));
+}
