@@ -41,6 +41,8 @@ class Sample {
   explicit Sample(Chunk chunk) : chunk_(std::move(chunk)) {}
   const M& operator*() const { return *reinterpret_cast<const M*>(chunk_.data()); }
   const M* operator->() const { return &**this; }
+  /// Whose it is: a number of its own for each publisher in a broker's life.
+  [[nodiscard]] std::uint64_t publisher() const { return chunk_.publisher(); }
 
  private:
   Chunk chunk_;

@@ -141,6 +141,11 @@ Chunk::~Chunk() {
   if (port_ != nullptr && data_ != nullptr) port_->subscriber.release(data_);
 }
 
+std::uint64_t Chunk::publisher() const {
+  if (port_ == nullptr || data_ == nullptr) return 0;
+  return static_cast<std::uint64_t>(iox::mepoo::ChunkHeader::fromUserPayload(data_)->originId());
+}
+
 OutPort::OutPort(std::shared_ptr<OutPortState> state) : state_(std::move(state)) {}
 
 Expected<OutPort> OutPort::open(Runtime& runtime, const Topic& topic) {

@@ -46,6 +46,8 @@ class Chunk {
   ~Chunk();
 
   [[nodiscard]] const std::byte* data() const { return data_; }
+  /// Whose it is: a number of its own for each publisher in a broker's life. 0 without a port.
+  [[nodiscard]] std::uint64_t publisher() const;
 
  private:
   std::shared_ptr<InPortState> port_;

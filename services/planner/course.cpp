@@ -10,9 +10,9 @@ constexpr double kJump = 5;  // more between two cycles is news of the map
 
 }  // namespace
 
-void Course::set(std::vector<Eigen::Vector2d> waypoints_m) {
+void Course::set(std::vector<Eigen::Vector2d> waypoints_m, std::size_t first) {
   waypoints_m_ = std::move(waypoints_m);
-  index_ = 0;
+  index_ = first < waypoints_m_.size() ? first : 0;
   begun_ = false;
 }
 

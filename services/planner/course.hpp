@@ -14,7 +14,8 @@ class Course {
   explicit Course(const PlannerConfig& config) : config_(config) {}
 
   /// @param waypoints_m places in odom
-  void set(std::vector<Eigen::Vector2d> waypoints_m);
+  /// @param first that it drives to
+  void set(std::vector<Eigen::Vector2d> waypoints_m, std::size_t first = 0);
 
   /// Takes the next waypoint where this one is reached, or was passed by: the vehicle is beyond the plane
   /// through it that its approach crosses, within `kPassed` tolerances. The last one is never passed by.

@@ -22,7 +22,7 @@ class Planner::Impl {
  public:
   Impl(const PlannerConfig& config, int n_xy);
 
-  void set_course(std::vector<Eigen::Vector2d> waypoints_m);
+  void set_course(std::vector<Eigen::Vector2d> waypoints_m, std::size_t first);
   const Plan& cycle(const MapView* map, const State& state, const Senses& senses);
   const Plan& stand(Reason reason, const char* why);
 

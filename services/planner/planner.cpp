@@ -19,8 +19,8 @@ constexpr int kStandCycles = 3;  // what a jump of the odometry says of the spee
 
 Planner::Planner(const PlannerConfig& config, int n_xy) : impl_(std::make_unique<Impl>(config, n_xy)) {}
 Planner::~Planner() = default;
-void Planner::set_course(std::vector<Eigen::Vector2d> waypoints_m) {
-  impl_->set_course(std::move(waypoints_m));
+void Planner::set_course(std::vector<Eigen::Vector2d> waypoints_m, std::size_t first) {
+  impl_->set_course(std::move(waypoints_m), first);
 }
 const Plan& Planner::cycle(const MapView* map, const State& state, const Senses& senses) {
   return impl_->cycle(map, state, senses);
@@ -55,8 +55,8 @@ Planner::Impl::Impl(const PlannerConfig& config, int n_xy)
   plan_.why.reserve(kLongestWhy);
 }
 
-void Planner::Impl::set_course(std::vector<Eigen::Vector2d> waypoints_m) {
-  course_.set(std::move(waypoints_m));
+void Planner::Impl::set_course(std::vector<Eigen::Vector2d> waypoints_m, std::size_t first) {
+  course_.set(std::move(waypoints_m), first);
   closed_.clear();
   fan_.forget();
   progress_.begin();

@@ -93,8 +93,8 @@ class Planner {
   Planner(const PlannerConfig& config, int n_xy);
   ~Planner();
 
-  /// Places in odom to be reached one after the other. Begins at the first.
-  void set_course(std::vector<Eigen::Vector2d> waypoints_m);
+  /// Places in odom to be reached one after the other, from `first` on.
+  void set_course(std::vector<Eigen::Vector2d> waypoints_m, std::size_t first = 0);
 
   /// One cycle, `1 / rate_hz` after the last. Deterministic, without allocations after the first ones.
   /// @param map nullptr: none is there. One larger than `n_xy` is not driven by.

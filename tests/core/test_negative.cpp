@@ -109,6 +109,7 @@ TEST_CASE("A drop must show by more than 0.08 of the depth that matters, and noi
   Rig strict(config);
   strict.see(scan({0, 0, 0}, [](double x, double) { return ditch_z_m(x); }));
   const Places found = strict.flagged(kNegative);
+  CHECK(holds(found, 7.75, 0.25));        // 0.36 m down
   CHECK_FALSE(holds(found, 6.75, 0.25));  // 0.22 m down at most
   for (const auto& at : found) CHECK(strict.column(at[0], at[1]).negative_delta > 0.342f);
 }

@@ -130,6 +130,22 @@ TEST_CASE("the map of a drive holds the newest that was seen, and nothing that i
   CHECK(height_at(3, 0) == 2);
 }
 
+TEST_CASE("a column of that map has the flags of more than half of its looks") {
+  Layers layers;
+  CourseMap map({0, -5}, 10, kCell_m);
+  const auto look = [&](std::uint8_t flags) {
+    const Seen seen = layers.seen(0, 2, 1, Visibility::ground_seen);
+    std::fill_n(layers.storage.arrays().flags, kColumns * kColumns, flags);
+    map.add(seen);
+    return map.view().flags[map.view().cells().index_of(2, 0)];
+  };
+  CHECK(look(0) == 0);
+  CHECK(look(kHard) == 0);
+  CHECK(look(kHard | kSteep) == kHard);
+  CHECK(look(kSteep) == 0);
+  CHECK(look(kHard | kSteep) == (kHard | kSteep));
+}
+
 TEST_CASE("distance and cost along a way are those of the map below it") {
   const Field field({10.1, 5.1});  // its column's middle is at (10.25, 5.25)
   const planner::PlannerConfig config;

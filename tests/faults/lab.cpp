@@ -121,6 +121,8 @@ void Lab::check_fault(const std::string& fault, const std::string& process, cons
   INFO("said: " << told);
   CHECK(said);
   CHECK(observer->counter("gvom-ingest-rear", "sweeps_mapped") > mapped);
+  const auto judged = board->maps.load();
+  CHECK(eventually([&] { return board->maps > judged; }));  // who judges them lives
   char seen[256];
   std::snprintf(seen, sizeof seen, "Health after %.2f s: \"%s\"", said_after_s, told.c_str());
   report(fault, seen, recovery_s, dropped_between(*before, *observer->health(process)));

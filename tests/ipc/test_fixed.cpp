@@ -57,6 +57,7 @@ TEST_CASE("a message arrives in another process as it was sent") {
     const auto first = take_within(subscriber);
     const auto second = take_within(subscriber);
     EXPECT(first && second);
+    EXPECT(first->publisher() != 0 && first->publisher() == second->publisher());
     EXPECT((*first)->T_odom_base.position_m[0] == 12.5 && (*second)->T_odom_base.position_m[0] == 13.5);
     EXPECT((*first)->header.magic == kMagic && (*first)->header.version == Odometry::kVersion);
     EXPECT((*first)->header.size == sizeof(Odometry) && (*first)->header.epoch == 3);

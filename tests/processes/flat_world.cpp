@@ -70,12 +70,7 @@ class Drive {
     layers_.publish(std::move(*writer), stamp_ns_, 0);
   }
 
-  void publish_course(double x_m, double y_m) {
-    ipc::Course course{};
-    course.count = 1;
-    course.places[0] = {x_m, y_m};
-    static_cast<void>(course_.publish(course, stamp_ns_, 0));
-  }
+  void publish_course(const ipc::Course& course) { static_cast<void>(course_.publish(course, stamp_ns_, 0)); }
 
   [[nodiscard]] double x_m() const { return x_m_; }
   [[nodiscard]] double speed_mps() const { return speed_mps_; }
@@ -114,7 +109,7 @@ class Drive {
 
 FlatWorld::FlatWorld(const services::VehicleConfig& config)
     : state_(new (::mmap(nullptr, sizeof(State), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0))
-                 State{{true}, {true}, {false}, {false}, {0}, {0}, {0}, {0}, {0}, {0}, {0}, {0}, {}}),
+                 State()),
       child_([this, &config] { live(config); }) {
   up_ = up_step_.wait_for(1);
 }
@@ -123,9 +118,10 @@ FlatWorld::~FlatWorld() {
   ::munmap(state_, sizeof(State));
 }
 
-void FlatWorld::send_course(double x_m, double y_m) {
-  state_->goal_x_m = x_m;
-  state_->goal_y_m = y_m;
+void FlatWorld::send_course(const std::vector<ipc::Course::Place>& places) {
+  state_->course = {};
+  state_->course.count = static_cast<std::uint32_t>(places.size());
+  std::copy(places.begin(), places.end(), state_->course.places);
   state_->new_course = true;
 }
 
@@ -149,12 +145,13 @@ void FlatWorld::live(const services::VehicleConfig& config) {
     braked = brakes;
     if (state_->odometry) drive.publish_odometry();
     if (state_->layers && step % kStepsPerMap == 0) drive.publish_layers(state_->front_missing);
-    if (state_->new_course.exchange(false)) drive.publish_course(state_->goal_x_m, state_->goal_y_m);
+    if (state_->new_course.exchange(false)) drive.publish_course(state_->course);
     while (const auto plan = drive.plans().take()) {
       ++state_->why_version;
       std::copy_n((*plan)->why, state_->why.size(), state_->why.begin());
       ++state_->why_version;
       state_->mode = (*plan)->mode;
+      state_->waypoint = (*plan)->waypoint;
     }
     state_->x_m = drive.x_m();
     state_->speed_mps = drive.speed_mps();

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "ipc/messages.hpp"
 #include "services/common/vehicle_config.hpp"
@@ -30,27 +31,30 @@ class FlatWorld {
   void let_odometry(bool on) { state_->odometry = on; }
   /// As layers name the lidar "front".
   void lose_front(bool missing) { state_->front_missing = missing; }
-  void send_course(double x_m, double y_m);
+  void send_course(double x_m, double y_m) { send_course({{x_m, y_m}}); }
+  void send_course(const std::vector<ipc::Course::Place>& places);
 
   [[nodiscard]] double x_m() const { return state_->x_m; }
   [[nodiscard]] double speed_mps() const { return state_->speed_mps; }
   [[nodiscard]] std::uint64_t commands() const { return state_->commands; }
   /// How often it braked since no command held any more.
   [[nodiscard]] std::uint64_t deadlines_passed() const { return state_->deadlines_passed; }
+  /// Of the newest plan: the place that it drives to.
+  [[nodiscard]] std::uint32_t waypoint() const { return state_->waypoint; }
   /// Of the newest plan.
   [[nodiscard]] ipc::PlanMode mode() const { return static_cast<ipc::PlanMode>(state_->mode.load()); }
   [[nodiscard]] std::string why() const;
 
  private:
   struct State {
-    std::atomic<bool> layers, odometry, front_missing;
-    std::atomic<bool> new_course;
-    std::atomic<double> goal_x_m, goal_y_m;
-    std::atomic<double> x_m, speed_mps;
-    std::atomic<std::uint64_t> commands, deadlines_passed;
-    std::atomic<std::uint32_t> mode;
-    std::atomic<int> why_version;
-    std::array<char, sizeof(ipc::Plan::why)> why;
+    std::atomic<bool> layers{true}, odometry{true}, front_missing{false};
+    std::atomic<bool> new_course{false};
+    ipc::Course course{};  // while `new_course` is false
+    std::atomic<double> x_m{0}, speed_mps{0};
+    std::atomic<std::uint64_t> commands{0}, deadlines_passed{0};
+    std::atomic<std::uint32_t> mode{0}, waypoint{0};
+    std::atomic<int> why_version{0};
+    std::array<char, sizeof(ipc::Plan::why)> why{};
   };
 
   void live(const services::VehicleConfig& config);

@@ -61,4 +61,5 @@ TEST_CASE("fusion goes on telling how it is though its queue is never empty") {
     const std::uint64_t before = lost();
     CHECK(eventually([&] { return lost() > before; }));
   }
+  CHECK(observer.counter("gvom-fusion", "maps_fused") > 0);
 }

@@ -114,6 +114,31 @@ TEST_CASE("a planner that is killed leaves a deadline, and its successor goes on
   rig.end();
 }
 
+TEST_CASE(
+    "of a course of several places the successor drives to the one that comes next, of a new one to the "
+    "first") {
+  Rig rig;
+  REQUIRE(rig.world.is_up());
+  rig.world.send_course({{8, 0}, {1000, 0}});
+  REQUIRE(eventually([&] { return rig.world.waypoint() == 1; }));
+  rig.planner->kill_asleep();
+  REQUIRE(rig.stands());
+  const double killed_m = rig.world.x_m();
+  rig.planner = rig.start();
+  REQUIRE(rig.drives());
+  CHECK(rig.world.waypoint() == 1);
+  CHECK(rig.planner->says(", 1 of them reached before this start"));
+  CHECK(eventually([&] { return rig.world.x_m() > killed_m + 3; }));
+
+  CHECK(rig.planner->stop() == 0);
+  rig.world.send_course({{8, 0}, {1000, 0}});  // the same places, meant anew
+  rig.planner = rig.start();
+  CHECK(rig.planner->says("a course of 2 places"));
+  CHECK(eventually([&] { return rig.world.waypoint() == 0; }));
+  CHECK(rig.planner->stop() == 0);
+  rig.end();
+}
+
 TEST_CASE("a course may be a file, and one that is none ends the start") {
   Rig rig;
   REQUIRE(rig.world.is_up());

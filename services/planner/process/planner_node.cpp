@@ -69,6 +69,7 @@ PlannerNode::PlannerNode(const services::VehicleConfig& config, ipc::Runtime& ru
       planner_(config.planner, config.mapper.map.size_xy),
       motion_(config.odometry),
       sides_(sides_of(config.lidars)),
+      record_(CourseRecord::path_of(runtime.name())),
       message_(std::make_unique<ipc::Plan>()) {
   const std::pair<const char*, const std::uint64_t*> rows[] = {{"cycles", &counts_.cycles},
                                                                {"overruns", &counts_.overruns},
@@ -80,8 +81,9 @@ PlannerNode::PlannerNode(const services::VehicleConfig& config, ipc::Runtime& ru
                                                                {"odometry_jumps", &counts_.odometry_jumps},
                                                                {"drop_no_chunk", &counts_.without_chunk}};
   for (const auto& [name, value] : rows) counters_.emplace_back(&health_.counter(name), value);
-  if (!course.empty()) follow(course);
+  if (!course.empty()) follow(course, name_of(0, 0, course));
   bus_.waiter.add(bus_.course);
+  bus_.waiter.add(bus_.odometry);  // when a pose came says how far the vehicle is beyond it
   lifecycle_.on_stop([this] { bus_.waiter.wake(); });
 }
 
@@ -95,6 +97,7 @@ services::ExitCode PlannerNode::run() {
   while (!lifecycle_.stopping()) {
     const std::int64_t now_ns = ipc::monotonic_ns();
     take_course();
+    take_odometry();
     if (now_ns < next_ns) {
       bus_.waiter.wait(std::chrono::milliseconds((next_ns - now_ns) / 1'000'000 + 1));
       continue;
@@ -106,6 +109,7 @@ services::ExitCode PlannerNode::run() {
   services::notify_stopping();
   health_.set_state(ipc::HealthState::stopping);
   command(planner_.stand(Reason::no_course, "the planner stops"));
+  if (course_name_.is_of_file()) record_.forget();  // who starts it by hand again means all of the file
   spdlog::info("{} cycles, {} of them overran", counts_.cycles, counts_.overruns);
   broker_.leave_if_gone();
   return services::ExitCode::ok;
@@ -142,14 +146,18 @@ void PlannerNode::take_course() {
     std::vector<Eigen::Vector2d> places;
     for (std::uint32_t i = 0; i < course.count; ++i)
       places.emplace_back(course.places[i].x_m, course.places[i].y_m);
-    follow(std::move(places));
+    const CourseName name = name_of(sample->publisher(), course.header.sequence, places);
+    follow(std::move(places), name);
   }
 }
 
-void PlannerNode::follow(std::vector<Eigen::Vector2d> course) {
-  spdlog::info("a course of {} places", course.size());
+void PlannerNode::follow(std::vector<Eigen::Vector2d> course, const CourseName& name) {
+  const std::size_t first = record_.place_of(name);
+  spdlog::info("a course of {} places{}", course.size(),
+               first == 0 ? "" : fmt::format(", {} of them reached before this start", first));
   course_ = course;
-  planner_.set_course(std::move(course));
+  course_name_ = name;
+  planner_.set_course(std::move(course), first);
 }
 
 void PlannerNode::take_layers() {
@@ -160,10 +168,10 @@ void PlannerNode::take_layers() {
 }
 
 void PlannerNode::cycle(std::int64_t begun_ns) {
-  take_odometry();
   take_layers();
   const Plan& plan = decide(begun_ns);
   publish(plan, begun_ns);
+  if (!course_.empty()) record_.note(course_name_, plan.waypoint);
   took_ns_ = ipc::monotonic_ns() - begun_ns;
   cycle_stage_.record_ns(took_ns_);
   ++counts_.cycles;

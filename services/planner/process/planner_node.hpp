@@ -17,6 +17,7 @@
 #include "services/common/log.hpp"
 #include "services/common/vehicle_config.hpp"
 #include "services/planner/planner.hpp"
+#include "services/planner/process/course_record.hpp"
 #include "services/planner/process/motion.hpp"
 #include "services/planner/process/sides.hpp"
 
@@ -56,7 +57,7 @@ class PlannerNode {
 
   void take_odometry();
   void take_course();
-  void follow(std::vector<Eigen::Vector2d> course);
+  void follow(std::vector<Eigen::Vector2d> course, const CourseName& name);
   void take_layers();
   void cycle(std::int64_t begun_ns);
   /// What to do now. Valid until the next call.
@@ -83,6 +84,8 @@ class PlannerNode {
   MotionEstimate motion_;
   Sides sides_;
   std::vector<Eigen::Vector2d> course_;
+  CourseName course_name_;
+  CourseRecord record_;
   std::optional<ipc::LayersSample> layers_;
   std::int64_t odometry_ns_ = 0;        // when the newest pose came
   bool jumped_ = false;                 // since the last cycle

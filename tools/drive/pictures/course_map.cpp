@@ -19,6 +19,18 @@ CourseMap::CourseMap(const Eigen::Vector2d& low_m, double edge_m, double cell_m)
   clearance_.assign(columns, std::numeric_limits<float>::infinity());
   flags_.assign(columns, 0);
   visibility_.assign(columns, 0);
+  looks_.resize(columns);
+}
+
+/// @return the flags that more than half of the looks had
+std::uint8_t CourseMap::Looks::add(std::uint8_t flags) {
+  ++all;
+  std::uint8_t most = 0;
+  for (unsigned bit = 0; bit < with.size(); ++bit) {
+    with[bit] = static_cast<std::uint16_t>(with[bit] + (flags >> bit & 1));
+    if (2 * with[bit] > all) most = static_cast<std::uint8_t>(most | 1U << bit);
+  }
+  return most;
 }
 
 void CourseMap::add(const Seen& seen) {
@@ -37,7 +49,7 @@ void CourseMap::add(const Seen& seen) {
       slope_[to] = seen.layers.slope[from];
       roughness_[to] = seen.layers.roughness[from];
       clearance_[to] = seen.layers.clearance[from];
-      flags_[to] = seen.layers.flags[from];
+      flags_[to] = looks_[to].add(seen.layers.flags[from]);
       visibility_[to] = visibility;
     }
 }

@@ -1,6 +1,8 @@
 // What the map said over a whole drive, so that ways can be compared on it that were not driven.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <vector>
 
 #include "services/planner/map_view.hpp"
@@ -8,7 +10,8 @@
 
 namespace gvom::driving {
 
-/// Of each column the newest that was seen of it. What only was remembered is not taken.
+/// Of each column the newest that was seen of it, and the flags that it had in more than half of all looks:
+/// single ones have specks on level ground. What only was remembered is not taken.
 class CourseMap {
  public:
   /// A square from `low_m` on, `edge_m` wide, of columns of `cell_m`.
@@ -20,9 +23,18 @@ class CourseMap {
   [[nodiscard]] planner::MapView view() const;
 
  private:
+  /// How often a column was seen, and with which flag.
+  struct Looks {
+    std::uint16_t all = 0;
+    std::array<std::uint16_t, 8> with{};
+
+    std::uint8_t add(std::uint8_t flags);
+  };
+
   Grid grid_;
   std::vector<float> height_, slope_, roughness_, clearance_;
   std::vector<std::uint8_t> flags_, visibility_;
+  std::vector<Looks> looks_;
 };
 
 }  // namespace gvom::driving
