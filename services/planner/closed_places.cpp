@@ -24,9 +24,7 @@ MapView ClosedPlaces::close(const MapView& map) {
     DiscRows(cells, middle_m, kRadius_m).for_each([&](int cell) {
       flags_[static_cast<std::size_t>(cell)] |= kHard;
     });
-  MapView closed = map;
-  closed.flags = flags_.data();
-  return closed;
+  return with_flags(map, flags_);
 }
 
 }  // namespace gvom::planner

@@ -57,15 +57,11 @@ MapView KeptPlaces::keep(const MapView& map, const Eigen::Vector2d& vehicle_m) {
   for (int cell = 0; cell < cells.count(); ++cell)
     if ((cells.center_of(cell) - vehicle_m).squaredNorm() > square_m2)
       lethal_[cell] = map.flags[cell] & kLethal;
-  MapView with = map;
-  with.flags = flags_.data();
-  return with;
+  return with_flags(map, flags_);
 }
 
 MapView KeptPlaces::holes(const MapView& map) const {
-  MapView with = map;
-  with.flags = holes_.data();
-  return with;
+  return with_flags(map, holes_);
 }
 
 }  // namespace gvom::planner

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
 #include "core/format/grid.hpp"
 #include "core/format/layers.hpp"
@@ -64,6 +65,12 @@ struct MapView {
     return {grid.size[0], cell_m, grid.origin[0] * cell_m, grid.origin[1] * cell_m};
   }
 };
+
+/// The same map with other flags, which outlive it.
+inline MapView with_flags(MapView map, const std::vector<std::uint8_t>& flags) {
+  map.flags = flags.data();
+  return map;
+}
 
 inline MapView map_view(const LayerArrays& layers, const Grid& grid, std::int64_t stamp_ns) {
   return {stamp_ns,         grid,         layers.height,    layers.slope, layers.roughness,

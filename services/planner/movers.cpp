@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "services/planner/kept_places.hpp"
 #include "services/planner/lone.hpp"
 
 namespace gvom::planner {
@@ -30,7 +31,7 @@ bool any_near(const Cells& cells, int index, double reach_m, IsSo is_so) {
 }  // namespace
 
 Movers::Movers(const VehicleLimits& vehicle, int n_xy, double blind_m)
-    : vehicle_(vehicle), beside_m_(blind_m + 1) {
+    : vehicle_(vehicle), beside_m_(blind_m + KeptPlaces::kBeyond_m) {
   const auto count = static_cast<std::size_t>(n_xy) * static_cast<std::size_t>(n_xy);
   for (Past& past : pasts_) {
     past.known.resize(count);
@@ -266,17 +267,13 @@ MapView Movers::close(const MapView& map) {
   std::copy_n(map.flags, map.cells().count(), flags_.begin());
   mark(map.cells(), before_, kSoft);
   mark(map.cells(), discs_, kHard);
-  MapView closed = map;
-  closed.flags = flags_.data();
-  return closed;
+  return with_flags(map, flags_);
 }
 
 MapView Movers::discourage(const MapView& map) {
   std::copy_n(map.flags, map.cells().count(), flags_.begin());
   mark(map.cells(), discs_, kSoft);
-  MapView marked = map;
-  marked.flags = flags_.data();
-  return marked;
+  return with_flags(map, flags_);
 }
 
 void Movers::mark(const Cells& cells, const std::vector<Disc>& discs, std::uint8_t flag) {

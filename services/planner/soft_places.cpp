@@ -48,9 +48,7 @@ MapView SoftPlaces::soften(const MapView& map, const MapView& seen, const Eigen:
     std::uint8_t& flags = flags_[static_cast<std::size_t>(cell)];
     if ((flags & kHard) != 0 && was_soft(cell)) flags = static_cast<std::uint8_t>((flags & ~kHard) | kSoft);
   });
-  MapView softened = map;
-  softened.flags = flags_.data();
-  return softened;
+  return with_flags(map, flags_);
 }
 
 }  // namespace gvom::planner

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "services/planner/lone.hpp"
-#include "tests/planner_cycle/small_map.hpp"
+#include "tests/planner_cycle/walker.hpp"
 
 namespace gvom::test {
 namespace {
@@ -19,12 +19,8 @@ constexpr double kPersonRadius_m = 0.25;
 
 /// Columns that a person there touches are SOFT.
 void put_person(SmallMap& map, const Vector2d& middle_m) {
-  const double half_m = map.cells().cell_m / 2;
-  const auto touches = [&](double x, double y) {
-    return std::hypot(std::max(0.0, std::abs(x - middle_m.x()) - half_m),
-                      std::max(0.0, std::abs(y - middle_m.y()) - half_m)) < kPersonRadius_m;
-  };
-  map.where(touches, [&](std::size_t i) { map.flags[i] = kSoft; });
+  map.where(touched_by(middle_m, kPersonRadius_m, map.cells().cell_m),
+            [&](std::size_t i) { map.flags[i] = kSoft; });
 }
 
 struct Told {
