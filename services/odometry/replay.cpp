@@ -18,6 +18,7 @@ constexpr std::int64_t kStallNs = 10'000'000'000;
 constexpr std::int64_t kDrainStallNs = 30'000'000'000;
 constexpr std::int64_t kSilentNs = 2'000'000'000;  // a reader says something four times a second
 constexpr std::int64_t kWorthSayingNs = 1'000'000'000;
+constexpr std::int64_t kLongestPauseNs = 10'000'000'000;  // of a recording; no sweep within one is mapped
 
 std::string joined(const std::vector<std::string>& parts) {
   std::string text;
@@ -27,6 +28,17 @@ std::string joined(const std::vector<std::string>& parts) {
 
 std::uint64_t now_ns() {
   return static_cast<std::uint64_t>(ipc::monotonic_ns());
+}
+
+/// What of the time between two poses is not waited for: one stamp of 0 before those of a clock would be a
+/// pause of fifty years. Told.
+std::int64_t beyond_longest_pause_ns(std::int64_t before_ns, std::int64_t stamp_ns) {
+  const std::int64_t pause_ns = stamp_ns - before_ns;
+  if (pause_ns <= kLongestPauseNs) return 0;
+  spdlog::warn("the odometry pauses for {:.1f} s after {:.3f} s: going on after {} s of them",
+               1e-9 * static_cast<double>(pause_ns), 1e-9 * static_cast<double>(before_ns),
+               kLongestPauseNs / 1'000'000'000);
+  return pause_ns - kLongestPauseNs;
 }
 
 ipc::Odometry message_of(const Pose& pose, std::uint32_t flags) {
@@ -114,8 +126,12 @@ Replay::Outcome Replay::wait_for_readers() {
 
 Replay::Outcome Replay::play_round() {
   const auto begin = steady_clock::now();
+  std::int64_t skipped_ns = 0;
+  std::int64_t last_ns = poses_.front().stamp_ns;
   for (const StampedPose& pose : poses_) {
-    const auto since_first = static_cast<double>(pose.stamp_ns - poses_.front().stamp_ns);
+    if (!options_.lossless) skipped_ns += beyond_longest_pause_ns(last_ns, pose.stamp_ns);
+    last_ns = pose.stamp_ns;
+    const auto since_first = static_cast<double>(pose.stamp_ns - poses_.front().stamp_ns - skipped_ns);
     const std::chrono::nanoseconds at{static_cast<std::int64_t>(since_first / options_.rate)};
     const Outcome waited = options_.lossless ? wait_for_room() : wait_until(begin + at);
     if (!waited) return waited;

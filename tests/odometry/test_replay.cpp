@@ -219,6 +219,20 @@ TEST_CASE("a paced replay starts without them and ends") {
   CHECK_THAT(output(), Contains("no sign within 0.2 s of: front, rear, fusion; starting without"));
 }
 
+TEST_CASE("a paced replay does not wait for what lies behind a stamp of 0") {
+  write_inputs(20);
+  std::ostringstream poses;
+  poses << std::ifstream(kRecording).rdbuf();
+  std::ofstream(kRecording) << "0 0 0 0 0 0 0 1\n" << poses.str();
+  BrokerProcess broker;
+  REQUIRE(broker.is_up());
+  Child replay(odometry({"--wait-readers", "0", "--rate", "20"}));
+  CHECK(replay.wait() == 0);
+  CHECK_THAT(output(),
+             Contains("the odometry pauses for 1000.0 s after 0.000 s: going on after 10 s of them") &&
+                 Contains("22 odometry messages"));
+}
+
 TEST_CASE("a reader that stands still stops a lossless replay after 10 s, by name") {
   write_inputs();
   BrokerProcess broker;
