@@ -52,9 +52,11 @@ UdpReceiver::~UdpReceiver() {
 
 tl::expected<std::unique_ptr<UdpReceiver>, SourceError> UdpReceiver::open(const UdpOptions& options,
                                                                           SourceState& state) {
-  const auto socket = open_udp_socket(options, state.warnings);
+  UdpOptions joined = options;  // by name, so that its loss is seen
+  if (options.group && options.interface.empty()) joined.interface = interface_towards(*options.group);
+  const auto socket = open_udp_socket(joined, state.warnings);
   if (!socket) return tl::unexpected(socket.error());
-  return std::unique_ptr<UdpReceiver>(new UdpReceiver(*socket, options, state));
+  return std::unique_ptr<UdpReceiver>(new UdpReceiver(*socket, joined, state));
 }
 
 /// An interface that was taken away and came back is another one, of which nothing is joined.

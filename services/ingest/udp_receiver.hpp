@@ -20,7 +20,8 @@ class UdpReceiver final : public PacketSource {
   UdpReceiver(const UdpReceiver&) = delete;
   UdpReceiver& operator=(const UdpReceiver&) = delete;
 
-  /// Errors: the socket fails; the interface that was asked for is gone, or is another one by that name.
+  /// Errors: the socket fails; the interface that was asked for, or on which the group was joined, is gone,
+  /// or is another one by that name.
   tl::expected<PacketEvent, std::string> next(Packet& out, std::chrono::milliseconds timeout) override;
   tl::expected<void, std::string> rewind() override;
   [[nodiscard]] bool is_live() const override { return true; }

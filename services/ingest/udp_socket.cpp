@@ -1,10 +1,12 @@
 #include "services/ingest/udp_socket.hpp"
 
+#include <ifaddrs.h>
 #include <net/if.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
+#include <memory>
 #include <utility>
 
 namespace gvom::ingest {
@@ -82,6 +84,21 @@ SourceError failed(const UdpOptions& options, const std::string& what) {
   const int error = errno;
   return {to_text(options) + ": " + what + std::strerror(error),
           error == EACCES || error == EPERM ? Kind::bad_data : Kind::unavailable};
+}
+
+/// The interface that has this address of this machine.
+std::string interface_of(const Address& own) {
+  ifaddrs* first = nullptr;
+  if (::getifaddrs(&first) != 0) return {};
+  const std::unique_ptr<ifaddrs, decltype(&::freeifaddrs)> owner(first, ::freeifaddrs);
+  for (const ifaddrs* one = first; one != nullptr; one = one->ifa_next) {
+    const sockaddr* const at = one->ifa_addr;
+    if (at == nullptr || (at->sa_family != AF_INET && at->sa_family != AF_INET6)) continue;
+    sockaddr_storage copy{};
+    std::memcpy(&copy, at, at->sa_family == AF_INET ? sizeof(sockaddr_in) : sizeof(sockaddr_in6));
+    if (address_of(copy) == own) return one->ifa_name;
+  }
+  return {};
 }
 
 /// Packets of the group to this port from that interface only, whatever others have joined.
@@ -171,6 +188,18 @@ tl::expected<int, SourceError> open_udp_socket(const UdpOptions& options,
   if (done && options.group) done = join(socket, options, interface);
   if (!done) return tl::unexpected(done.error());
   return socket.release();
+}
+
+/// Asks a socket's own address on its way there; nothing is sent.
+std::string interface_towards(const Address& group) {
+  const Socket socket(::socket(is_ipv4(group) ? AF_INET : AF_INET6, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+  const SocketAddress there = socket_address(group, 9);
+  sockaddr_storage own{};
+  socklen_t size = sizeof own;
+  if (::connect(socket.get(), there.get(), there.size) != 0 ||
+      ::getsockname(socket.get(), reinterpret_cast<sockaddr*>(&own), &size) != 0)
+    return {};
+  return interface_of(address_of(own));
 }
 
 std::string to_text(const UdpOptions& options) {

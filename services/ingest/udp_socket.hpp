@@ -37,6 +37,10 @@ tl::expected<std::optional<Address>, SourceError> from_option(const services::So
 /// joined.
 tl::expected<int, SourceError> open_udp_socket(const UdpOptions& options, std::vector<std::string>& warnings);
 
+/// The interface on which the kernel now joins a group for which none is named; empty if no route leads to
+/// it.
+std::string interface_towards(const Address& group);
+
 /// "UDP port 7502 of group 239.201.201.201 on eth1", for messages.
 std::string to_text(const UdpOptions& options);
 
