@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace gvom::ingest {
 namespace {
@@ -149,7 +150,8 @@ tl::expected<void, std::string> PointTimes::decide(const PcdField& field, const 
                        std::to_string(evidence.points) + " points take " + seconds +
                        ", and no other unit fits");
   }
-  if (evidence.is_too_fast(unit)) {
+  is_too_fast_ = evidence.is_too_fast(unit);
+  if (is_too_fast_) {
     warnings.push_back(scan.path + ": the " + std::to_string(evidence.points) + " points take only " +
                        seconds + " by '" + field.name + "' in " + name_of(unit) +
                        ": they are hardly deskewed; times within a packet? Another unit: " + scan.option +
@@ -172,6 +174,9 @@ tl::expected<void, std::string> PointTimes::settle(const PcdField& field, const 
   if (!unit_) {
     const auto decided = decide(field, evidence, scan, warnings);
     if (!decided) return decided;
+  } else if (!asked_ && !is_too_fast_ && evidence.is_too_fast(*unit_)) {
+    return tl::unexpected("'" + field.name + "' is not a time in " + name_of(*unit_) +
+                          " as before: " + evidence.text());
   }
   const TimeUnit unit = unit_.value_or(usual_unit(field));
   if (!(evidence.largest() * seconds_of(unit) <= kLatestS) || (!asked_ && !evidence.fits(unit))) {
@@ -190,12 +195,50 @@ tl::expected<void, std::string> PointTimes::settle(const PcdField& field, const 
   return {};
 }
 
+/// What is a float of seconds now would pass as integers of nanoseconds: a sweep of no time at all.
+void PointTimes::forget_other_field(const PcdField& field, const TimedScan& scan,
+                                    std::vector<std::string>& warnings) {
+  const std::string text = field.name + " " + field.type + std::to_string(8 * field.size);
+  const std::string before = std::exchange(field_, text);
+  if (asked_ || before.empty() || before == text) return;
+  unit_.reset();
+  of_clock_.reset();
+  warnings.push_back(scan.path + ": the times are in the field '" + text + "', before in '" + before +
+                     "': unit and origin are found out anew");
+}
+
+tl::expected<void, std::string> PointTimes::settle_or_begin_anew(const PcdField& field,
+                                                                 const Evidence& evidence,
+                                                                 const TimedScan& scan,
+                                                                 std::vector<std::string>& warnings) {
+  const bool bound = !asked_ && unit_;
+  const auto settled = settle(field, evidence, scan, warnings);
+  refused_ = settled || !bound ? 0 : refused_ + 1;
+  if (refused_ < kAnew) return settled;
+  refused_ = 0;
+  const auto unit_before = std::exchange(unit_, std::nullopt);
+  const auto origin_before = std::exchange(of_clock_, std::nullopt);
+  const std::size_t told = warnings.size();
+  if (const auto anew = settle(field, evidence, scan, warnings);
+      !anew || std::exchange(is_too_fast_, false)) {
+    unit_ = unit_before;
+    of_clock_ = origin_before;
+    warnings.resize(told);
+    return settled;
+  }
+  warnings.push_back(scan.path + ": the times in '" + field.name + "' are others than those before, for " +
+                     std::to_string(kAnew) + " scans: unit and origin are found out anew (" +
+                     name_of(unit_.value_or(usual_unit(field))) + ")");
+  return {};
+}
+
 tl::expected<void, std::string> PointTimes::read(const TimedScan& scan, std::vector<std::int64_t>& out_ns,
                                                  std::vector<std::string>& warnings) {
   const std::size_t count = scan.is_hit.size();
   out_ns.assign(count, scan.stamp_ns);
   const PcdField* field = find_field(scan, warnings);
   if (field == nullptr) return {};
+  forget_other_field(*field, scan, warnings);
   Evidence evidence;
   for (std::size_t i = 0; i < count; ++i) {
     if (!scan.is_hit[i]) continue;
@@ -205,7 +248,7 @@ tl::expected<void, std::string> PointTimes::read(const TimedScan& scan, std::vec
     evidence.add(time, i);
   }
   if (evidence.points == 0) return {};
-  const auto settled = settle(*field, evidence, scan, warnings);
+  const auto settled = settle_or_begin_anew(*field, evidence, scan, warnings);
   if (!settled) return settled;
   const TimeUnit unit = unit_.value_or(usual_unit(*field));
   const std::int64_t zero_ns = evidence.of_clock(unit) ? 0 : scan.stamp_ns;

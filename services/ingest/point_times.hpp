@@ -28,13 +28,17 @@ struct TimedScan {
   const std::string& option;  ///< How a person says the unit: "scans:PATH?time=".
 };
 
-/// Finds out unit and origin from the first scan that tells them, and holds every later one to them. Whole
+/// Finds out unit and origin from the first scan that tells them, and holds every later one to them, until
+/// kAnew in a row don't keep to them, or the field is another: then they are found out anew, with a warning.
+/// Whole
 /// numbers are nanoseconds, floating-point ones seconds, unless a sweep would then last over 2 s or, by a
 /// clock, have more points in a second than any lidar measures, and one other unit fits: that is taken, with
 /// a warning. Where it remains open, the scan is refused. Times up to 2 s count from the scan's stamp, others
 /// are a clock's.
 class PointTimes {
  public:
+  static constexpr int kAnew = 20;  ///< A driver that was changed, not a scan that is damaged.
+
   /// `asked`: instead of finding out.
   explicit PointTimes(std::optional<TimeUnit> asked) : unit_(asked), asked_(asked.has_value()) {}
 
@@ -55,10 +59,17 @@ class PointTimes {
 
   tl::expected<void, std::string> settle(const PcdField& field, const Evidence& evidence,
                                          const TimedScan& scan, std::vector<std::string>& warnings);
+  void forget_other_field(const PcdField& field, const TimedScan& scan, std::vector<std::string>& warnings);
+  tl::expected<void, std::string> settle_or_begin_anew(const PcdField& field, const Evidence& evidence,
+                                                       const TimedScan& scan,
+                                                       std::vector<std::string>& warnings);
 
   std::optional<TimeUnit> unit_;
   bool asked_;
   std::optional<bool> of_clock_;
+  bool is_too_fast_ = false;    // more points in a second than any lidar measures: told, and used
+  std::string field_;           // that unit_ is of: its name and type
+  int refused_ = 0;             // in a row, since they don't keep to unit_ and of_clock_
   std::set<std::string> told_;  // fields
 };
 

@@ -9,7 +9,7 @@
 namespace gvom::ingest {
 namespace {
 
-constexpr double kMostTurnsPerSecond = 20;
+constexpr double kMostCloudsPerS = 100;  // of a lidar without turns, or in pieces of a turn
 
 }  // namespace
 
@@ -21,7 +21,7 @@ Ros2Clouds::Ros2Clouds(dds::Reader reader, const std::string& name, const CloudO
       clock_offset_ns_(clock_offset_ns) {}
 
 double Ros2Clouds::most_packets_per_s() const {
-  return kMostTurnsPerSecond;
+  return kMostCloudsPerS;
 }
 
 tl::expected<SourceEvent, std::string> Ros2Clouds::next(Sweep& out, std::chrono::milliseconds timeout) {

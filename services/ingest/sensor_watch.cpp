@@ -86,6 +86,10 @@ void SensorWatch::judge_foreign(const Look& before, const Look& now, double per_
   };
   const std::uint64_t foreign = strange(now.counters) - strange(before.counters);
   const double rate = static_cast<double>(foreign) * per_s;
+  if (foreign > 0 && now.counters.refusal[0] != '\0') {
+    refusal_ = now.counters.refusal;
+    return see(SensorFault::refused, rate);
+  }
   if (rate <= kStrayPerSecond) return;
   const std::uint64_t changes = now.counters.foreign_size_changes - before.counters.foreign_size_changes;
   foreign_size_ = now.counters.foreign_size;
@@ -144,6 +148,8 @@ void SensorWatch::tell(SensorFault fault, double value, services::Words& words) 
                        value);
     case SensorFault::garbage:
       return words.add("garbage: %.0f packets/s not used", value);
+    case SensorFault::refused:
+      return words.add("%.0f messages/s not used: %s", value, refusal_.data());
     case SensorFault::loss:
       return words.add("%.0f %% of packets lost", value);
     case SensorFault::queue_loss:

@@ -22,6 +22,7 @@ enum class SensorFault {
   second_sensor,  ///< Packets of this sensor's kind, of another sensor.
   other_model,    ///< Foreign packets, all of one size.
   garbage,        ///< Foreign packets of various sizes.
+  refused,        ///< Messages of ROS 2 that can't be used.
   loss,           ///< Columns that never came.
   queue_loss,     ///< Packets that the socket's queue had no room for.
   cut,            ///< Returns beyond max_returns.
@@ -71,6 +72,7 @@ class SensorWatch {
   Address second_address_{};
   KindText second_kind_{};
   KindText foreign_kind_{};
+  RefusalText refusal_{};
   std::uint64_t foreign_size_ = 0;
 };
 

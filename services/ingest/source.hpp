@@ -18,6 +18,9 @@ namespace gvom::ingest {
 /// Whose packets came, in words: a text that ends with 0.
 using KindText = std::array<char, 64>;
 
+/// Why a message of ROS 2 could not be used: a text that ends with 0, cut where it is too long.
+using RefusalText = std::array<char, 160>;
+
 /// Why input was not used. Everything that is dropped is in exactly one of these.
 struct SourceCounters {
   std::uint64_t packets = 0;                ///< Packets handed to the decoder.
@@ -51,6 +54,7 @@ struct SourceCounters {
   Address second_address{};                ///< Who sent the newest packet of a second sensor.
   KindText foreign_kind{};                 ///< Whose the newest foreign packet is, if its bytes prove it.
   KindText second_kind{};                  ///< Whose the newest packet of a second sensor is, likewise.
+  RefusalText refusal{};                   ///< Why the newest foreign message is not used.
 };
 
 /// What `Source::next` found.

@@ -1,4 +1,5 @@
 // Point clouds as drivers send them: where the fields lie, and what their times mean.
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -205,6 +206,58 @@ TEST_CASE("a cloud in the middle that can't be a sweep is passed over, counted a
   CHECK(source->counters().sweeps == 4);
   REQUIRE(source->warnings().size() == 1);
   CHECK(source->warnings()[0].find("bag.mcap /lidar: message 2: byte ") != std::string::npos);
+}
+
+TEST_CASE("a driver that takes another field for the times, or another zero, is followed; with a word") {
+  const auto stamp_ns = [](int cloud) { return kNoon_ns + cloud * 100'000'000LL; };
+  const CloudLayout seconds = xyz_and({"t", 18, kFloat64}, 26);
+  const auto since = [](double zero_s) {
+    return points(4, 26, [=](Octets& point, int i) { put(point, 18, zero_s + 0.01 * i); });
+  };
+  TopicBag bag(kType);
+  bag.add(1, cloud_message(stamp_ns(0), seconds, since(0)));
+  SECTION("another field, at once") {
+    bag.add(2, cloud_message(stamp_ns(1), kOuster, ouster_points()));
+    const auto source = open(bag.uri());
+    const auto sweeps = all_sweeps(*source);
+    REQUIRE(sweeps.size() == 2);
+    check_times(sweeps[1], stamp_ns(1));
+    REQUIRE(source->warnings().size() == 1);
+    CHECK(source->warnings()[0].find("the times are in the field 't U32', before in 't F64'") !=
+          std::string::npos);
+  }
+  SECTION("another zero, after twenty clouds") {
+    for (int i = 1; i <= 21; ++i) bag.add(1 + i, cloud_message(stamp_ns(i), seconds, since(1.7e9 + 0.1 * i)));
+    const auto source = open(bag.uri());
+    const auto sweeps = all_sweeps(*source);
+    REQUIRE(sweeps.size() == 3);
+    check_times(sweeps[1], stamp_ns(20), 250);
+    CHECK(source->counters().foreign_packets == 19);
+    const auto& told = source->warnings();
+    CHECK(std::count_if(told.begin(), told.end(), [](const std::string& text) {
+            return text.find("count from another zero than in the scans before: it is not used") !=
+                   std::string::npos;
+          }) == 2);  // the first and the tenth
+    CHECK(told.back().find("for 20 scans: unit and origin are found out anew (s)") != std::string::npos);
+  }
+}
+
+TEST_CASE("a driver that counts in microseconds from now on would not be deskewed: it is refused") {
+  constexpr int kPoints = 2000;
+  const auto step = [](int ticks) {
+    return points(kPoints, 20,
+                  [=](Octets& point, int i) { put(point, 14, static_cast<std::uint32_t>(i * ticks)); });
+  };
+  TopicBag bag(kType);
+  bag.add(1, cloud_message(kNoon_ns, kOuster, step(50'000)));
+  for (int i = 1; i <= 45; ++i)
+    bag.add(1 + i, cloud_message(kNoon_ns + i * 100'000'000LL, kOuster, step(50)));
+  const auto source = open(bag.uri());
+  CHECK(all_sweeps(*source).size() == 1);
+  CHECK(source->counters().foreign_packets == 45);
+  REQUIRE(source->warnings().size() == 2);  // the first and the tenth
+  CHECK(source->warnings()[0].find("'t' is not a time in ns as before: 2000 points") != std::string::npos);
+  CHECK(std::string(source->counters().refusal.data()).find("'t' is not a time in ns as before") == 0);
 }
 
 TEST_CASE("points beyond max_returns are counted") {

@@ -19,7 +19,8 @@ TEST_CASE("every counter is in Health, but those that say more about others") {
         static_cast<const void*>(&counts.foreign_size_changes),
         static_cast<const void*>(&counts.foreign_size), static_cast<const void*>(&counts.side_packets)})
     told.insert(more);
-  const std::size_t texts = 2 * sizeof counts.second_address + 2 * sizeof(gvom::ingest::KindText);
+  const std::size_t texts =
+      2 * sizeof counts.second_address + 2 * sizeof(gvom::ingest::KindText) + sizeof counts.refusal;
   const std::size_t all = sizeof counts - texts;
   CHECK(told.size() * sizeof(std::uint64_t) == all);
 }

@@ -136,6 +136,11 @@ TEST_CASE("each fault is told in words and numbers") {
     counters.foreign_packets += 60;
     counters.foreign_size_changes += 59;
   });
+  check_told("20 messages/s not used: field 't' has the unknown datatype 9", [](SourceCounters& counters) {
+    counters.packets += 2;
+    counters.foreign_packets += 2;
+    counters.refusal = {"field 't' has the unknown datatype 9"};
+  });
   check_told("70 packets/s lost in the socket's queue",
              [](SourceCounters& counters) { counters.kernel_drops += 7; });
   check_told("50 % of columns invalid", [](SourceCounters& counters) {
