@@ -12,17 +12,21 @@ namespace gvom::test {
 
 namespace fs = std::filesystem;
 
+Vehicle two_lidars(const std::string& folder) {
+  Vehicle vehicle{GVOM_SOURCE_DIR "/config/vehicles/two_lidars.yaml", {"front", "rear"}, folder, small_map()};
+  vehicle.sets.insert(vehicle.sets.end(),
+                      {"lidars.front.max_returns=65536", "lidars.rear.max_returns=65536"});
+  return vehicle;
+}
+
 Vehicle simulated(const std::string& folder, double seconds, double speed_mps) {
-  const std::string file = GVOM_SOURCE_DIR "/config/vehicles/two_lidars.yaml";
+  Vehicle vehicle = two_lidars(folder);
   const Ended made = run("gvom-sim",
-                         {"--config", file, "--seconds", std::to_string(seconds), "--speed",
+                         {"--config", vehicle.file, "--seconds", std::to_string(seconds), "--speed",
                           std::to_string(speed_mps), "--out", folder},
                          folder);
   INFO(made.output);
   REQUIRE(made.code == 0);
-  Vehicle vehicle{file, {"front", "rear"}, folder, small_map()};
-  vehicle.sets.insert(vehicle.sets.end(),
-                      {"lidars.front.max_returns=65536", "lidars.rear.max_returns=65536"});
   return vehicle;
 }
 

@@ -13,6 +13,9 @@ inline constexpr double kSpeed_mps = 5;
 /// So slow that the grid stays where it is for as long as a test lasts.
 inline constexpr double kCrawling_mps = 0.1;
 
+/// The simulated vehicle's two lidars, `front` and `rear`; logs go to FOLDER, and no recording is there.
+Vehicle two_lidars(const std::string& folder);
+
 /// The simulated vehicle of two lidars, `front` and `rear`, and its drive of so many seconds in FOLDER.
 Vehicle simulated(const std::string& folder, double seconds, double speed_mps = kSpeed_mps);
 

@@ -26,19 +26,23 @@ constexpr char kFusion[] = "gvom-fusion";
 constexpr int kQueued = 10;
 constexpr std::int64_t kPeriod_ns = 100'000'000;
 
-/// Empty maps of the lidar "front".
+ipc::Runtime join() {
+  return ipc::Runtime::connect("empty-maps", 5s).value();
+}
+
+/// Empty maps of one lidar.
 class EmptyMaps {
  public:
-  explicit EmptyMaps(const Vehicle& vehicle)
+  EmptyMaps(const Vehicle& vehicle, ipc::Runtime& runtime, const std::string& lidar)
       : config_(services::load_vehicle_config(vehicle.file, vehicle.sets).value()),
-        runtime_(ipc::Runtime::connect("empty-maps", 5s).value()),
-        maps_(ipc::BrickMapPublisher::buffer_map(runtime_, "front",
+        maps_(ipc::BrickMapPublisher::buffer_map(runtime, lidar,
                                                  buffer_map_capacity(services::pool_spec(config_)))
                   .value()) {
     EXPECT(eventually([&] { return maps_.has_subscribers(); }));
   }
 
-  void publish(int number) {
+  /// `jump`: the number of the first map after the odometry's last jump; 0: it has not jumped.
+  void publish(int number, int jump = 0) {
     const auto& size = config_.mapper.map;
     const auto slots = static_cast<std::uint32_t>(size.size_xy * size.size_xy * size.size_z / 512);
     auto map = maps_.loan({slots, 0, 0, ipc::columns(services::pool_spec(config_))}).value();
@@ -48,6 +52,7 @@ class EmptyMaps {
     header.grid = grid_around(size, Eigen::Vector3d::Zero());
     header.T_odom_base.orientation_xyzw[3] = 1;
     header.columns_seen_fraction = 0.75F;
+    header.odometry_jump_ns = jump * kPeriod_ns;
     header.mono_received_ns = ipc::monotonic_ns();
     header.suspended_ns = ipc::suspended_ns();
     maps_.publish(std::move(map), number * kPeriod_ns, 1);
@@ -55,7 +60,6 @@ class EmptyMaps {
 
  private:
   services::VehicleConfig config_;
-  ipc::Runtime runtime_;
   ipc::BrickMapPublisher maps_;
 };
 
@@ -76,7 +80,8 @@ TEST_CASE("fusion that was held up makes layers of the newest map at once, and s
   Step held;
   Step queued;
   const Child publisher([&] {
-    EmptyMaps maps(graph.vehicle());
+    auto runtime = join();
+    EmptyMaps maps(graph.vehicle(), runtime, "front");
     maps.publish(1);
     EXPECT(held.wait_for(1));
     for (int i = 1; i <= kQueued; ++i) {
@@ -110,6 +115,39 @@ TEST_CASE("fusion that was held up makes layers of the newest map at once, and s
   // Nothing comes any more: the layers grow old, and fusion says so.
   CHECK(
       eventually([&] { return reason_of(observer).find("no maps: the layers are ") != std::string::npos; }));
+}
+
+TEST_CASE("after a jump of the odometry nothing is left of a lidar that has not come since") {
+  const TemporaryFolder folder;
+  Graph graph(two_lidars(folder.path()));
+  const Observer observer(folder.path());
+  REQUIRE(observer.is_up());
+  graph.start_fusion();
+  Step both;
+  const Child publisher([&] {
+    auto runtime = join();
+    EmptyMaps front(graph.vehicle(), runtime, "front");
+    EmptyMaps rear(graph.vehicle(), runtime, "rear");
+    front.publish(1);
+    rear.publish(1);
+    EXPECT(both.wait_for(1));
+    front.publish(2, 2);
+    while (true) ::pause();
+  });
+  const auto stamps_are = [&](std::int64_t front_ns, std::int64_t rear_ns) {
+    const ipc::Layers layers = observer.newest_layers();
+    return layers.lidar_count == 2 && layers.lidars[0].newest_stamp_ns == front_ns &&
+           layers.lidars[1].newest_stamp_ns == rear_ns;
+  };
+  REQUIRE(eventually([&] { return stamps_are(kPeriod_ns, kPeriod_ns); }));
+  CHECK(observer.newest_layers().lidars[1].missing == 0);
+  both.reach(1);
+  REQUIRE(eventually([&] { return stamps_are(2 * kPeriod_ns, 0); }));
+  const ipc::LidarStatus rear = observer.newest_layers().lidars[1];
+  CHECK(rear.missing == 1);
+  CHECK(rear.maps_in_window == 0);
+  CHECK(rear.columns_seen_fraction == 0);
+  CHECK(observer.newest_layers().maps_in_window == 1);
 }
 
 TEST_CASE("a lidar that fusion does not know is named by Health and Layers, and is no part of the map") {
