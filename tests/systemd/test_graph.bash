@@ -109,6 +109,18 @@ check_upgrade() {
   eventually 20 is_new_broker "$pid" || fail "after an upgrade not everything was started again"
 }
 
+# Who starts the services one by one has none of them run on with the old program.
+check_upgrade_without_target() {
+  local broker fusion
+  systemctl stop gvom.target 'gvom-*.service'
+  systemctl start gvom-roudi gvom-fusion
+  broker=$(pid_of gvom-roudi) fusion=$(pid_of gvom-fusion)
+  install_package
+  eventually 20 is_back gvom-roudi "$broker" || fail "after an upgrade the broker, started without the target, was not started again"
+  eventually 20 is_back gvom-fusion "$fusion" || fail "after an upgrade fusion, started without the target, was not started again"
+  ! systemctl --quiet is-active gvom.target || fail "an upgrade starts the target"
+}
+
 check_removal() {
   say "removing the package while it runs"
   dpkg --purge gvom > /tmp/dpkg.log 2>&1 || { cat /tmp/dpkg.log; fail "dpkg --purge"; }
@@ -131,5 +143,7 @@ check_clock
 check_tools
 check_stop
 check_upgrade
+check_upgrade_without_target
+systemctl start gvom.target
 check_removal
 say "well"
