@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "services/planner/room.hpp"
+#include "services/planner/stance.hpp"
 #include "services/planner/words.hpp"
 
 namespace gvom::planner {
@@ -18,6 +19,11 @@ SearchResult Planner::Impl::search(const MapView& map, const Predicted& at) {
   const double around_m = fan_.reach_m(std::max(0.0, at.speed_mps)) + 2;
   const int all = map.grid.size[0] * map.grid.size[1];
   return search_.run(costs_, at.pose.place(), course_.waypoint(), around_m, all);
+}
+
+double Planner::Impl::cost_from(const Predicted& at) const {
+  const int cell = costs_.cells().index_of(at.pose.x_m, at.pose.y_m);
+  return cell >= 0 ? search_.cost_to_go()[cell] : Plan::kNoWay;
 }
 
 bool Planner::Impl::find_way(const MapView& map, const Predicted& at) {
@@ -43,8 +49,8 @@ bool Planner::Impl::find_way(const MapView& map, const Predicted& at) {
     return false;
   }
   plan_.searched.assign(search_.path().begin(), search_.path().end());
-  const int cell = costs_.cells().index_of(at.pose.x_m, at.pose.y_m);
-  if (cell >= 0 && std::isfinite(search_.cost_to_go()[cell])) plan_.cost_to_go = search_.cost_to_go()[cell];
+  if (const double cost = cost_from(at); std::isfinite(cost)) cost_to_go_ = cost;
+  plan_.cost_to_go = cost_to_go_;
   place_goal();
   look_beyond_goal(at);
   return true;
@@ -123,6 +129,7 @@ void Planner::Impl::brake_for_movers(const MapView& map, const Predicted& at) {
   const SearchResult result = search(map, at);
   if (result == SearchResult::found || result == SearchResult::cut) {
     plan_.searched.assign(search_.path().begin(), search_.path().end());
+    plan_.cost_to_go = cost_from(at);
     knows_next_ = false;
     make_guide();
     plan_.path = optimiser_.optimise(costs_, at.pose, at.curvature_per_m, at.speed_mps, guide_);
@@ -149,6 +156,7 @@ void Planner::Impl::stand_without_trajectory(const Senses& senses) {
 
 void Planner::Impl::back(const Predicted& at, const Senses& senses) {
   if (senses.blind_behind) {
+    retreat_.end();
     stop(Reason::blind_side);
     return say(plan_.why, "stops: no lidar that looks back has a map in the window");
   }
@@ -162,6 +170,18 @@ void Planner::Impl::back(const Predicted& at, const Senses& senses) {
   plan_.reason = Reason::dead_end;
   plan_.command = *command;
   say(plan_.why, "backs out of a dead end, %.1f m so far", retreat_.backed_m());
+}
+
+void Planner::Impl::raise_onto_ground() {
+  const double here_m = height_at(view_, now_.pose.x_m, now_.pose.y_m);
+  double z_m = std::isfinite(here_m) ? here_m : base_z_m_;
+  for (PathPoint& point : plan_.path) {
+    const double ground_m = height_at(view_, point.pose.x_m, point.pose.y_m);
+    point.z_m = z_m = std::isfinite(ground_m) ? ground_m : z_m;
+  }
+  z_m = std::isfinite(here_m) ? here_m : base_z_m_;
+  for (TrajectoryPoint& point : plan_.trajectory)
+    point.z_m = z_m = std::isfinite(point.z_m) ? point.z_m : z_m;
 }
 
 void Planner::Impl::watch_unseen(const Senses& senses) {
@@ -179,7 +199,7 @@ void Planner::Impl::watch_unseen(const Senses& senses) {
 
 void Planner::Impl::watch_progress() {
   const double away_m = (now_.pose.place() - course_.waypoint()).norm();
-  if (!progress_.update(stamp_ns_, plan_.cost_to_go, away_m)) return;
+  if (!progress_.update(stamp_ns_, cost_to_go_, away_m)) return;
   gave_up_ = true;
 }
 

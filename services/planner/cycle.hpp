@@ -37,6 +37,8 @@ class Planner::Impl {
   void back(const Predicted& at, const Senses& senses);
   /// @return whether there is a way; if not, the plan says why.
   bool find_way(const MapView& map, const Predicted& at);
+  /// By the last search.
+  [[nodiscard]] double cost_from(const Predicted& at) const;
   SearchResult search(const MapView& map, const Predicted& at);
   void place_goal();
   void look_beyond_goal(const Predicted& at);
@@ -46,6 +48,8 @@ class Planner::Impl {
   void stand_without_trajectory(const Senses& senses);
   /// Movers leave no way: it brakes along one that is free of what is there now.
   void brake_for_movers(const MapView& map, const Predicted& at);
+  /// The heights of path and trajectory, for who looks at them.
+  void raise_onto_ground();
   void watch_unseen(const Senses& senses);
   void watch_progress();
   [[nodiscard]] FanInput fan_input(const Predicted& at) const;
@@ -80,6 +84,8 @@ class Planner::Impl {
   Predicted now_;                       ///< The vehicle by its odometry.
   std::int64_t stamp_ns_ = 0;           ///< Of that.
   double room_now_m_ = 0;
+  double base_z_m_ = 0;                          ///< Of base_link.
+  double cost_to_go_ = 0;                        ///< When there last was a way.
   std::optional<std::int64_t> jump_ns_;          ///< Only a map from after it may be driven by.
   int must_stand_ = 0;                           ///< Cycles that it has to stand yet, after a jump.
   std::optional<std::int64_t> unseen_since_ns_;  ///< It stands before ground that does not show.

@@ -1,6 +1,7 @@
 #include "services/planner/fan.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "services/planner/arc.hpp"
@@ -210,7 +211,8 @@ bool Fan::append(const FanInput& input, const TrajectoryPoint& at, double speed_
   const Stance stance = stance_at(*input.map, config_.vehicle, at.pose);
   now_.blocked = !is_free(input, at.pose, stance);
   if (now_.blocked) return false;
-  now_.points.push_back({at.pose, stance.z_m, stance.roll_rad, stance.pitch_rad, at.curvature_per_m, 0});
+  const double z_m = stance.known ? stance.z_m : std::nan("");
+  now_.points.push_back({at.pose, z_m, stance.roll_rad, stance.pitch_rad, at.curvature_per_m, 0});
   const double seconds = kStep_m / std::max(speed_mps, kSteeringBelow_mps);
   now_.cost += kStep_m * input.costs->smooth_cost(at.pose.x_m, at.pose.y_m) + kPerSecond * seconds;
   sees_ = sees_ && sight_.is_known(*input.costs, at.pose, input.pose);

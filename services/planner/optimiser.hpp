@@ -14,6 +14,7 @@ namespace gvom::planner {
 struct PathPoint {
   Pose2 pose;
   double curvature_per_m = 0;  ///< From here to the next point; of the last point: as before it.
+  double z_m = 0;              ///< Of the ground there, in a Plan.
 };
 
 /// A list of curvatures over equal steps of length is the path; limits of the vehicle are limits of the list,

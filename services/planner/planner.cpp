@@ -58,6 +58,7 @@ Planner::Impl::Impl(const PlannerConfig& config, int n_xy)
 void Planner::Impl::set_course(std::vector<Eigen::Vector2d> waypoints_m, std::size_t first) {
   course_.set(std::move(waypoints_m), first);
   closed_.clear();
+  retreat_.end();
   fan_.forget();
   progress_.begin();
   arrived_ = gave_up_ = false;
@@ -68,6 +69,7 @@ void Planner::Impl::begin_plan() {
   plan_.path.clear();
   plan_.trajectory.clear();
   plan_.seen_m = 0;
+  plan_.cost_to_go = Plan::kNoWay;
 }
 
 const Plan& Planner::Impl::cycle(const MapView* map, const State& state, const Senses& senses) {
@@ -76,6 +78,7 @@ const Plan& Planner::Impl::cycle(const MapView* map, const State& state, const S
   bool may_progress = may_plan(map, senses);
   if (may_progress) {
     drive(*map, senses);
+    raise_onto_ground();
     if (plan_.reason == Reason::mover) movers_.wait(now_.pose.place(), stamp_ns_);
     may_progress =
         (movers_.empty() || movers_.waited_ns() > kLongWait_ns) && plan_.reason != Reason::blind_side;
@@ -114,6 +117,7 @@ void Planner::Impl::observe(const State& state, const Senses& senses) {
     retreat_.clear();
   }
   stamp_ns_ = state.stamp_ns;
+  base_z_m_ = state.T_odom_base.translation_m.z();
   now_ = {flat(state.T_odom_base), state.speed_mps, state.curvature_per_m};
   if (senses.odometry_jumped) {
     jump_ns_ = stamp_ns_;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -66,7 +67,8 @@ struct Command {
 /// A place on the chosen trajectory, and how fast it may be driven there.
 struct TrajectoryPoint {
   Pose2 pose;
-  double z_m = 0;  ///< Of the plane that the wheels stand on, at base_link.
+  double z_m =
+      0;  ///< Of the plane that the wheels stand on, at base_link; where that is not known, as before.
   double roll_rad = 0;
   double pitch_rad = 0;
   double curvature_per_m = 0;
@@ -75,12 +77,14 @@ struct TrajectoryPoint {
 
 /// Valid until the next cycle.
 struct Plan {
+  static constexpr double kNoWay = std::numeric_limits<double>::infinity();
+
   Mode mode = Mode::stop;
   Reason reason = Reason::no_course;
   std::string why;  ///< In words, with numbers: what a person reads.
   Command command;
   std::size_t waypoint = 0;                 ///< That it drives to.
-  double cost_to_go = 0;                    ///< To it, from here.
+  double cost_to_go = kNoWay;               ///< To it, from here.
   double seen_m = 0;                        ///< Along the trajectory, ground that is known.
   std::vector<Eigen::Vector2d> searched;    ///< A*'s path.
   std::vector<PathPoint> path;              ///< The same, optimised.

@@ -31,6 +31,8 @@ class Retreat {
   bool block(std::int64_t stamp_ns, bool stands, bool blind_behind);
   /// Backs from now on, if there is a way back that is worth it. @return whether it does
   bool begin(bool blind_behind);
+  /// It backs no farther.
+  void end() { backs_ = false; }
   /// The command to back by; nothing: that was all.
   std::optional<Command> back(const Costmap& costs, const Predicted& at);
 

@@ -53,6 +53,19 @@ TEST_CASE("a campaign drives what it has not driven, and every lidar is what the
   CHECK(sensor_of(*moose) == sim::Sensor::os1_128);
 }
 
+TEST_CASE("a vehicle that plans at another rate than the lidars turn is refused") {
+  const auto config =
+      services::load_vehicle_config(GVOM_SOURCE_DIR "/config/vehicles/warthog.yaml", {"planner.rate_hz=20"});
+  REQUIRE(config);
+  CampaignOptions options;
+  options.first_seed = options.last_seed = 9;
+  options.length_m = 40;
+  const auto rows = run_campaign(*config, options, [](const Row&) {});
+  REQUIRE_FALSE(rows);
+  CHECK(rows.error().find("warthog.yaml: planner.rate_hz: in lock-step it plans once a turn, at 10 Hz") !=
+        std::string::npos);
+}
+
 TEST_CASE("one lidar of a vehicle that has one cannot be silent") {
   const auto config = services::load_vehicle_config(GVOM_SOURCE_DIR "/config/vehicles/warthog.yaml");
   REQUIRE(config);

@@ -92,6 +92,24 @@ TEST_CASE("It backs no farther than it may, and not where no lidar looks") {
   }
 }
 
+TEST_CASE("a retreat ends where the rear goes blind, or a new course comes, and forward is tried again") {
+  for (const bool blind : {true, false}) {
+    PlannerConfig config = long_vehicle();
+    config.give_up_s = 12;
+    Lane lane(config);
+    Loop& loop = lane.loop;
+    REQUIRE(loop.until(Mode::back, 30));
+    if (blind) loop.senses.blind_behind = true;
+    if (!blind) loop.planner.set_course({{36, 14}});
+    int backs = 0;
+    const bool gives_up = loop.until(Mode::gave_up, blind ? 60 : 1, [&](const Plan& plan) {
+      if (plan.mode == Mode::back) ++backs;
+    });
+    CHECK(backs == 0);
+    CHECK(gives_up == blind);
+  }
+}
+
 TEST_CASE("poses that are a little older than those before do not restart its patience") {
   PlannerConfig config = long_vehicle();
   config.rate_hz = 50;

@@ -43,6 +43,34 @@ TEST_CASE("Without layers, or with old ones, it stops") {
   CHECK(flat.loop.step().mode == Mode::drive);
 }
 
+TEST_CASE("Where there is no way the rest of it costs infinity, also before the first") {
+  Flat flat;
+  CHECK(flat.loop.step().cost_to_go == Plan::kNoWay);
+  flat.loop.planner.set_course({{40, 25}});
+  CHECK(flat.loop.step().cost_to_go == Approx(30).epsilon(0.1));
+  flat.map.obstacle(box(20, 0, 21, 52));
+  const Plan& plan = flat.loop.step();
+  CHECK(plan.reason == Reason::no_way);
+  CHECK(plan.cost_to_go == Plan::kNoWay);
+}
+
+TEST_CASE("Path and trajectory lie on the ground, and where none is known as high as before") {
+  Flat flat;
+  flat.map.shape([](double x, double) { return 8 + 0.05 * (x - 10); });
+  flat.map.hide(box(19, 0, 52, 52));
+  flat.loop.planner.set_course({{40, 25}});
+  for (int i = 0; i < 10; ++i) flat.loop.step();
+  const Plan& plan = flat.loop.step();
+  const auto check = [](double x_m, double z_m) {
+    CAPTURE(x_m);
+    CHECK(z_m == Approx(8 + 0.05 * (std::min(x_m, 18.8) - 10)).margin(0.05));
+  };
+  REQUIRE(plan.path.size() > 20);
+  REQUIRE(plan.trajectory.size() > 20);
+  for (const auto& point : plan.path) check(point.pose.x_m, point.z_m);
+  for (const auto& point : plan.trajectory) check(point.pose.x_m, point.z_m);
+}
+
 TEST_CASE("It does not drive where no lidar looks") {
   Flat flat;
   flat.loop.planner.set_course({{40, 25}});

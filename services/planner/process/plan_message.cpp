@@ -33,7 +33,7 @@ void fill(const Plan& plan, ipc::Plan& message) {
   message.seen_m = plan.seen_m;
   message.path_count = fits(plan.path.size());
   for (std::uint32_t i = 0; i < message.path_count; ++i)
-    message.path[i] = point_of(plan.path[i].pose, 0, plan.path[i].curvature_per_m, 0);
+    message.path[i] = point_of(plan.path[i].pose, plan.path[i].z_m, plan.path[i].curvature_per_m, 0);
   message.trajectory_count = fits(plan.trajectory.size());
   for (std::uint32_t i = 0; i < message.trajectory_count; ++i) {
     const TrajectoryPoint& point = plan.trajectory[i];

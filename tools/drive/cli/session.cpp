@@ -4,7 +4,9 @@
 #include <cmath>
 #include <ctime>
 
+#include "ipc/text.hpp"
 #include "services/planner/planner.hpp"
+#include "services/planner/process/sides.hpp"
 
 namespace gvom::driving {
 namespace {
@@ -20,18 +22,32 @@ double processor_ms() {
   return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
 }
 
+/// What gvom-planner is told by Layers of lidars from which nothing comes: all but the first `left`.
+planner::Senses senses_with(const services::VehicleConfig& config, std::size_t left) {
+  ipc::Layers layers{};
+  for (; layers.lidar_count < left; ++layers.lidar_count)
+    ipc::set_text(layers.lidars[layers.lidar_count].name, config.lidars[layers.lidar_count].name);
+  const planner::Sides sides = planner::sides_of(config.lidars);
+  planner::Senses senses;
+  senses.blind_ahead = planner::is_blind(layers, sides.ahead);
+  senses.blind_behind = planner::is_blind(layers, sides.behind);
+  return senses;
+}
+
 /// The planner as a driver.
 class Chauffeur {
  public:
-  Chauffeur(const services::VehicleConfig& config, const std::vector<Eigen::Vector2d>& waypoints_m,
-            const Onlooker& onlooker)
-      : planner_(config.planner, config.mapper.map.size_xy), onlooker_(onlooker) {
+  Chauffeur(const services::VehicleConfig& config, std::size_t lidars,
+            const std::vector<Eigen::Vector2d>& waypoints_m, const Onlooker& onlooker)
+      : planner_(config.planner, config.mapper.map.size_xy),
+        senses_(senses_with(config, lidars)),
+        onlooker_(onlooker) {
     planner_.set_course(waypoints_m);
   }
 
   Decision operator()(const Seen& seen) {
     const planner::MapView view = planner::map_view(seen.layers, seen.grid, seen.stamp_ns);
-    planner::Senses senses;
+    planner::Senses senses = senses_;
     senses.layers_age_s = seen.layers_age_s;
     const double begun_ms = processor_ms();
     const planner::Plan& plan = planner_.cycle(&view, seen.state, senses);
@@ -49,6 +65,7 @@ class Chauffeur {
 
  private:
   planner::Planner planner_;
+  const planner::Senses senses_;
   const Onlooker& onlooker_;
   planner::Mode mode_ = planner::Mode::stop;
   std::string why_;
@@ -130,6 +147,9 @@ tl::expected<SessionResult, std::string> run_session(const CourseWorld& course,
                                                      const services::VehicleConfig& config,
                                                      const SessionOptions& options,
                                                      const Onlooker& onlooker) {
+  if (std::abs(config.planner.rate_hz * kTurn_s - 1) > 1e-9)
+    return tl::unexpected(config.path + ": planner.rate_hz: in lock-step it plans once a turn, at " +
+                          std::to_string(std::lround(1 / kTurn_s)) + " Hz");
   const auto rig = ablated(rig_of(config, options.sensor), options.ablation);
   if (!rig) return tl::unexpected(rig.error());
   const sim::World world(course.data);
@@ -144,7 +164,7 @@ tl::expected<SessionResult, std::string> run_session(const CourseWorld& course,
   loop_options.ablation = options.ablation;
   loop_options.threads = options.threads;
   Loop loop(world, obstacles, *rig, course.start, loop_options);
-  Chauffeur chauffeur(config, course.waypoints_m, onlooker);
+  Chauffeur chauffeur(config, rig->mapping.lidars.size(), course.waypoints_m, onlooker);
   auto log = drive(
       loop, [&chauffeur](const Seen& seen) { return chauffeur(seen); }, most_seconds(options, result.way));
   if (!log) return tl::unexpected(log.error());

@@ -21,7 +21,7 @@ planner::Plan plan_of(const ipc::Plan& message) {
   plan.cost_to_go = message.cost_to_go;
   plan.seen_m = message.seen_m;
   for (std::uint32_t i = 0; i < message.path_count; ++i)
-    plan.path.push_back({pose_of(message.path[i]), message.path[i].curvature_per_m});
+    plan.path.push_back({pose_of(message.path[i]), message.path[i].curvature_per_m, message.path[i].z_m});
   for (std::uint32_t i = 0; i < message.trajectory_count; ++i) {
     const ipc::Plan::Point& point = message.trajectory[i];
     plan.trajectory.push_back({pose_of(point), point.z_m, 0, 0, point.curvature_per_m, point.speed_mps});
