@@ -1,4 +1,4 @@
-// The example planner on remembered ground.
+// The example planner on remembered ground, and the example driver.
 #include <catch2/catch.hpp>
 
 #include <algorithm>
@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "core/format/layers.hpp"
+#include "ipc/fixed.hpp"
+#include "ipc/runtime.hpp"
 #include "tests/processes/layers_log.hpp"
 #include "tests/processes/recordings.hpp"
 #include "tests/tools/temporary_folder.hpp"
@@ -15,6 +17,7 @@
 using namespace gvom;
 using namespace gvom::test;
 using ipc::test::eventually;
+using namespace std::chrono_literals;
 
 namespace {
 
@@ -101,4 +104,34 @@ TEST_CASE("the example planner pays for remembered ground, and drives on none be
   // The map's own cost does not tell.
   CHECK(log.newest().lidar("front").missing == 1);
   CHECK(has_drivable_remembered(log.newest()));
+}
+
+TEST_CASE(
+    "the example driver commands a speed with a deadline while layers come, and stands when a lidar dies") {
+  const TemporaryFolder folder;
+  Vehicle vehicle = simulated(folder.path(), 4);
+  Graph graph(vehicle);
+  graph.start_readers();
+  Program driver("gvom-example-driver", {}, folder.path());
+  ipc::test::Step drives, stands;
+  ipc::test::Child listener([&] {
+    auto runtime = ipc::Runtime::connect("listener", 5s).value();
+    auto commands = ipc::Subscriber<ipc::Command>::open(runtime).value();
+    while (true) {
+      const auto command = ipc::test::take_within(commands);
+      EXPECT(command);
+      const std::int64_t left_ns = (*command)->mono_deadline_ns - ipc::monotonic_ns();
+      EXPECT(left_ns < 250'000'000);
+      if ((*command)->speed_mps == 1.0) drives.reach(1);
+      if ((*command)->speed_mps == 0.0 && drives.reached(1)) stands.reach(1);
+    }
+  });
+  const auto odometry = graph.replay({"--rate", "1", "--loop"});
+  CHECK(drives.wait_for(1));
+  graph.lose_ingest("front");
+  CHECK(stands.wait_for(1));
+  CHECK(eventually([&] { return driver.output().find("stands: not free ahead") != std::string::npos; }));
+  CHECK(odometry->stop() == 0);
+  driver.kill();
+  graph.stop();
 }
