@@ -40,7 +40,7 @@ metrics() {
 }
 
 check_tools() {
-  eventually 10 gvomctl status > /tmp/status.log 2>&1 || { cat /tmp/status.log; fail "gvomctl status"; }
+  eventually 60 gvomctl status > /tmp/status.log 2>&1 || { cat /tmp/status.log; fail "gvomctl status"; }
   tail -n 20 /tmp/status.log
   systemctl start gvom-metrics || fail "gvom-metrics"
   metrics 2> /dev/null | grep --quiet '^gvom_' || fail "no figures at 127.0.0.1:9464/metrics"
