@@ -19,9 +19,8 @@ struct FoxgloveConfig {
 struct McapConfig {
   std::string folder;   ///< Where files go; empty: nothing is recorded.
   int split_mb = 1024;  ///< A new file at this size, 1 .. 1048576.
-  std::string topics =
-      "/gvom/costmap,/gvom/layers,/gvom/voxels,/tf,/gvom/plan,/gvom/trajectory,"
-      "/diagnostics,/gvom/status";  ///< Which are recorded, between commas.
+  /// Which are recorded, between commas. /gvom/status is not: it is JSON, and ros2 bag opens no file with it.
+  std::string topics = "/gvom/costmap,/gvom/layers,/gvom/voxels,/tf,/gvom/plan,/gvom/trajectory,/diagnostics";
 };
 
 /// `bridge.ros2.*`: a node of ROS 2.

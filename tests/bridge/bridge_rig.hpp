@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "services/common/bridge_config.hpp"
 #include "tests/bridge/ws_client.hpp"
 #include "tests/processes/recordings.hpp"
 #include "tests/tools/temporary_folder.hpp"
@@ -17,6 +18,7 @@ inline Vehicle with_bridge(Vehicle vehicle, std::uint16_t port) {
   vehicle.sets.push_back("fusion.voxel_rate_hz=10");
   vehicle.sets.push_back("bridge.foxglove.port=" + std::to_string(port));
   vehicle.sets.push_back("bridge.mcap.folder=" + vehicle.folder + "/recorded");
+  vehicle.sets.push_back("bridge.mcap.topics=" + bridge::McapConfig{}.topics + ",/gvom/status");
   return vehicle;
 }
 

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "services/bridge/mcap_recorder.hpp"
+#include "services/common/bridge_config.hpp"
 #include "tests/bridge/mcap_file.hpp"
 #include "tests/bridge/ws_client.hpp"
 #include "tests/tools/temporary_folder.hpp"
@@ -22,6 +23,16 @@ std::vector<std::string> files_in(const std::string& folder) {
   for (const auto& entry : std::filesystem::directory_iterator(folder)) files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   return files;
+}
+
+TEST_CASE(
+    "what is recorded unless it is said otherwise is all of ROS: ros2 bag opens no file with JSON in it") {
+  const std::string topics = "," + bridge::McapConfig{}.topics + ",";
+  for (const bridge::Topic& topic : bridge::kTopics) {
+    const bool is_in = topics.find("," + std::string(topic.name) + ",") != std::string::npos;
+    CAPTURE(topic.name);
+    CHECK_FALSE((is_in && topic.type == nullptr));
+  }
 }
 
 TEST_CASE("the topics that are asked for are recorded, with schema and quality of service") {

@@ -17,6 +17,7 @@ const LATE_S = 0.25;
 const LATE_MAPS = 3;        // so many one after the other, and what has piled up on the way is let go
 const WAY_HOLDS_S = 1;      // a planner that says nothing for longer has no way
 const VOXELS_HOLD_S = 3;
+const SHOWS_WITHIN_S = 3;   // after a tab was hidden its first map comes
 const BUDGET_BYTES = 240e6;
 const SMALL_BUDGET_BYTES = 100e6;  // on machines of 4 GB and less, as far as the browser tells
 
@@ -31,7 +32,8 @@ export class Feed {
     this.ways = { plan: { way: [], at_s: -Infinity }, trajectory: { way: [], at_s: -Infinity } };
     this.map = this.pose = this.cloud = this.tops = this.status = null;
     this.cloud_at_s = this.status_at_s = -Infinity;
-    this.was_hidden = this.is_hidden = this.wants_voxels = this.lets_go = false;
+    this.is_hidden = this.wants_voxels = this.lets_go = false;
+    this.shown_at_s = -Infinity;
     this.late_maps = 0;
     this.connection = new Connection(url, {
       on_message: (topic, message, stamp_ns) => this.on_message(topic, message, stamp_ns),
@@ -40,7 +42,7 @@ export class Feed {
 
   /** A hidden tab takes the status only. */
   set_wanted(is_hidden, wants_voxels) {
-    this.was_hidden = this.was_hidden || is_hidden;
+    if (this.is_hidden && !is_hidden) this.shown_at_s = clock_s();
     this.is_hidden = is_hidden;
     this.wants_voxels = wants_voxels;
     this.subscribe();
@@ -78,7 +80,7 @@ export class Feed {
   on_layers(message, stamp_s, now_s) {
     this.map = layer_map_of(message);
     this.age.on_map(stamp_s, now_s);
-    this.was_hidden = false;
+    this.shown_at_s = -Infinity;
     this.keep(now_s);
     this.on_map();
     this.catch_up();
@@ -138,7 +140,7 @@ export class Feed {
       status: this.status,
       status_silent_s: now_s - this.status_at_s,
       late_s: this.age.silent_s(now_s) < SILENT_S ? this.age.late_s() : 0,
-      was_hidden: this.was_hidden,
+      was_hidden: now_s - this.shown_at_s < SHOWS_WITHIN_S,
       last_error: connection.last_error,
     };
   }

@@ -29,10 +29,14 @@ function bridge_url() {
 const shows = { obstacles: true, ways: true, voxels: false };
 const is_phone = () => window.innerWidth < PHONE_PX;
 const scene = make_scene();
-const feed = new Feed(bridge_url(), { on_map: show_live, on_status: () => show_summary(feed.status) });
+const feed = new Feed(bridge_url(), { on_map: show_live, on_status: summarise });
 const scrubber = new Scrubber(feed.history, show_at);
 let layer = 'height';
 let layers_offered = '';
+
+function summarise() {
+  show_summary(feed.status, feed.connection?.connected ? clock_s() - feed.status_at_s : Infinity);
+}
 
 function make_scene() {
   try {
@@ -87,6 +91,7 @@ function tick() {
   feed.connection.watch();
   if (ticks++ % HEALTH_TICKS) return;
   show_health(feed.status, now_s - feed.status_at_s);
+  summarise();
   show_range(layer, scene.ground.range);
   show_note(Boolean(scene.view?.tops), scene.voxels.mesh.visible ? scene.voxels.left_out : null);
 }
@@ -128,7 +133,7 @@ function start() {
   make_opener('open-key', 'key-open');
   document.addEventListener('visibilitychange', choose_topics);
   new ResizeObserver(([{ contentRect }]) => scene.resize(contentRect.width, contentRect.height)).observe(find('scene'));
-  show_summary(null);
+  summarise();
   choose_topics();
   setInterval(tick, TICK_MS);
   requestAnimationFrame(draw);

@@ -50,3 +50,16 @@ test('a status that stopped coming is told by how long it is silent', (t) => {
   assert.equal(status.vehicle, 'warthog');
   assert.ok(status_silent_s > 3.9 && status_silent_s < 5, `${status_silent_s}`);
 });
+
+test('that a tab was hidden is the reason until a map comes, and for three seconds at most', (t) => {
+  const feed = fed(t, []);
+  const says_so = (now_s) => feed.circumstances(now_s).was_hidden;
+  assert.equal(says_so(clock_s()), false);
+  feed.set_wanted(true, false);
+  feed.set_wanted(false, false);
+  const shown_s = clock_s();
+  assert.equal(says_so(shown_s + 2.5), true);
+  assert.equal(says_so(shown_s + 3.5), false);
+  feed.on_message('/gvom/layers', GRID, 5_000_000_000n);
+  assert.equal(says_so(shown_s + 1), false);
+});

@@ -1,5 +1,7 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
+import { setFlagsFromString } from 'node:v8';
+import { runInNewContext } from 'node:vm';
 import { cloud_field } from '../src/data/cloud.js';
 import { column_tops, layer_step_m } from '../src/data/column_tops.js';
 import { half_of, pack_halves, unpack_halves } from '../src/data/half.js';
@@ -88,4 +90,30 @@ test('the vehicle is the base of the map\'s frame', () => {
   assert.ok(Math.abs(pose.yaw_rad - 0.7) < 1e-12);
   assert.deepEqual([pose.x, pose.y, pose.z], [1, 2, 3]);
   assert.equal(pose_of(tf, 'map'), null);
+});
+
+/** Whether what `make` returns keeps nothing of what it says that was in its hands. */
+async function lets_go_of(make) {
+  setFlagsFromString('--expose-gc');
+  const gc = runInNewContext('gc');
+  const { made, held } = make();
+  for (let i = 0; i < 5; ++i) {
+    await new Promise((done) => setTimeout(done, 1));
+    gc();
+  }
+  assert.ok(made);
+  return held.map((reference) => reference.deref() === undefined);
+}
+
+test('a packed map, and the tops of columns, keep nothing of the messages that they came in', async () => {
+  assert.deepEqual(await lets_go_of(() => {
+    const message = grid([1, 2, NaN, 4], [0, 1, 2, 4]);
+    const map = layer_map_of(message);
+    return { made: pack_map(map, 0), held: [new WeakRef(message), new WeakRef(map)] };
+  }), [true, true]);
+  assert.deepEqual(await lets_go_of(() => {
+    const map = layer_map_of(grid([0, 0, 0, 0], [0, 0, 0, 0]));
+    const cloud = read('sensor_msgs/msg/PointCloud2', cloud_message(5, ['x', 'y', 'z'], Float32Array.from([10.2, 20.2, 0.4])));
+    return { made: column_tops(cloud, map), held: [new WeakRef(map), new WeakRef(cloud)] };
+  }), [true, true]);
 });

@@ -10,6 +10,19 @@ export function layer_step_m(z) {
   return steps.length ? Math.min(...steps) / 1000 : 0.4;
 }
 
+/** Apart from column_tops(), which has the cloud and the map: what it makes must not keep them. */
+function index_in({ columns, rows, cell_m, origin_m }) {
+  return (x_m, y_m) => {
+    const column = Math.floor((x_m - origin_m.x) / cell_m);
+    const row = Math.floor((y_m - origin_m.y) / cell_m);
+    return column >= 0 && row >= 0 && column < columns && row < rows ? row * columns + column : -1;
+  };
+}
+
+function lookup(tops, index_of) {
+  return { top_m: (x_m, y_m) => tops[index_of(x_m, y_m)] ?? NaN };
+}
+
 /**
  * @typedef {object} ColumnTops
  * @property {(x_m: number, y_m: number) => number} top_m in odom: the upper face of the highest voxel that stands on the
@@ -26,16 +39,12 @@ export function column_tops(cloud, map) {
   const ground = map.layer('height');
   const step_m = layer_step_m(z);
   const tops = new Float32Array(map.columns * map.rows).fill(NaN);
-  const index_of = (x_m, y_m) => {
-    const column = Math.floor((x_m - map.origin_m.x) / map.cell_m);
-    const row = Math.floor((y_m - map.origin_m.y) / map.cell_m);
-    return column >= 0 && row >= 0 && column < map.columns && row < map.rows ? row * map.columns + column : -1;
-  };
+  const index_of = index_in(map);
   for (const i of Uint32Array.from(z.keys()).sort((a, b) => z[a] - z[b])) {
     const at = index_of(x[i], y[i]);
     if (at < 0 || Number.isNaN(ground[at])) continue;
     const below = Number.isNaN(tops[at]) ? ground[at] + step_m / 2 : tops[at] - step_m / 2;
     if (z[i] - below <= GAP_LAYERS * step_m) tops[at] = z[i] + step_m / 2;
   }
-  return { top_m: (x_m, y_m) => tops[index_of(x_m, y_m)] ?? NaN };
+  return lookup(tops, index_of);
 }

@@ -4,6 +4,8 @@ import { seconds, whole, with_unit } from './words.js';
 
 const MARKS = { ok: '●', degraded: '▲', failed: '■', silent: '■', starting: '○', stopping: '○', unknown: '○' };
 
+const OLD_S = 3;  // a status that came longer ago says how it was
+
 const mark_of = (state) => element('span', `mark ${state in MARKS ? state : 'failed'}`, MARKS[state] ?? '■');
 
 function problems_part(problems) {
@@ -59,12 +61,12 @@ function process_row(process, is_open) {
 export function show_health(status, silent_s) {
   const panel = find('health');
   const open = new Set([...panel.querySelectorAll('details[open]')].map((row) => row.dataset.name));
-  panel.dataset.old = String(silent_s > 3);
+  panel.dataset.old = String(silent_s > OLD_S);
   if (!status) {
     panel.replaceChildren(element('p', 'quiet', 'No status has come yet.'));
     return;
   }
-  const heard = silent_s > 3 ? element('p', 'quiet', `Nothing heard for ${seconds(silent_s)}. This is how it was.`) : '';
+  const heard = silent_s > OLD_S ? element('p', 'quiet', `Nothing heard for ${seconds(silent_s)}. This is how it was.`) : '';
   panel.replaceChildren(
     heard, problems_part(status.problems),
     element('h2', '', 'Lidars'), lidars_part(status.lidars),
@@ -72,15 +74,16 @@ export function show_health(status, silent_s) {
     ...status.processes.map((process) => process_row(process, open.has(process.name))));
 }
 
-/** The button that opens the panel on a phone, and the missing lidars beside the age. */
-export function show_summary(status) {
+/** The button that opens the panel on a phone, the missing lidars beside the age, and the tab's title. */
+export function show_summary(status, silent_s) {
+  const is_old = !status || silent_s > OLD_S;
   const problems = status?.problems.length ?? 0;
   const button = find('open-health');
-  button.replaceChildren(mark_of(!status ? 'unknown' : problems ? 'degraded' : 'ok'), problems ? `${problems} problem${problems > 1 ? 's' : ''}` : 'Health');
+  button.replaceChildren(mark_of(is_old ? 'unknown' : problems ? 'degraded' : 'ok'), problems ? `${problems} problem${problems > 1 ? 's' : ''}` : 'Health');
   button.dataset.problems = String(problems);
   const missing = status?.missing ?? [];
   find('lidars').replaceChildren(...(missing.length
     ? [mark_of('failed'), element('span', '', `lidar ${missing.join(', ')} missing`)] : []));
   find('vehicle').textContent = status?.vehicle ?? '';
-  document.title = problems ? `▲ ${problems} · gvom` : 'gvom';
+  document.title = is_old ? '▲ nothing heard · gvom' : problems ? `▲ ${problems} · gvom` : 'gvom';
 }

@@ -16,7 +16,7 @@ export class Scrubber {
   }
 
   look(back_s) {
-    this.time_s = back_s > -0.15 ? null : this.now_s + back_s;
+    this.time_s = back_s > -0.15 || this.history.entries.length === 0 ? null : this.now_s + back_s;
     this.on_look(this.time_s);
   }
 

@@ -4,7 +4,9 @@ import { reader_of } from './schema.js';
 const PROTOCOLS = ['foxglove.websocket.v1', 'foxglove.sdk.v1'];
 const FIRST_RETRY_MS = 500;
 const LONGEST_RETRY_MS = 5000;
-const DEAD_MS = 10000;
+const DEAD_MS = 10000;          // a link of which nothing has come for so long is given up,
+const LONGEST_DEAD_MS = 60000;  // each time later, until a map has come: nothing comes beside it, and a slow link takes its time
+const MAP_BYTES = 100000;
 const MESSAGE_DATA = 1;
 const HEAD_BYTES = 13;
 
@@ -32,6 +34,7 @@ export class Connection {
     this.bad_messages = 0;
     this.last_error = '';
     this.retry_ms = FIRST_RETRY_MS;
+    this.dead_ms = DEAD_MS;
     this.next_id = 1;
     this.forget();
     this.connect();
@@ -63,15 +66,15 @@ export class Connection {
   connect() {
     const socket = this.open_socket(this.url);
     this.socket = socket;
-    this.alive_ms = Date.now();
+    this.alive_ms = performance.now();
     socket.binaryType = 'arraybuffer';
     socket.onmessage = ({ data }) => {
       if (socket !== this.socket) return;
-      this.alive_ms = Date.now();
+      this.note_alive(data);
       this.guarded(() => (typeof data === 'string' ? this.on_text(JSON.parse(data)) : this.on_binary(data)));
     };
     socket.onopen = () => {
-      this.alive_ms = Date.now();
+      this.alive_ms = performance.now();
       this.connected = true;
       this.retry_ms = FIRST_RETRY_MS;
       this.on_change();
@@ -79,9 +82,16 @@ export class Connection {
     socket.onclose = () => this.on_close();
   }
 
+  note_alive(data) {
+    const silent_ms = performance.now() - this.alive_ms;
+    this.alive_ms += silent_ms;
+    if (data.byteLength > MAP_BYTES) this.dead_ms = Math.max(DEAD_MS, 2 * silent_ms);
+  }
+
   /** Gives up a link of which nothing has come for so long; a network that went away says no word of it. */
-  watch(now_ms = Date.now()) {
-    if (now_ms - this.alive_ms < DEAD_MS || this.timer_runs) return;
+  watch(now_ms = performance.now()) {
+    if (now_ms - this.alive_ms < this.dead_ms || this.timer_runs) return;
+    if (this.connected) this.dead_ms = Math.min(LONGEST_DEAD_MS, 2 * this.dead_ms);
     this.socket.onclose = null;
     this.socket.close();
     this.on_close();
