@@ -11,13 +11,18 @@ simulate() {
     echo "demo: the recording in $recording is the one wanted"
     return
   fi
+  [[ ! -e $recording || -e $recording/made-by || -z $(ls -A "$recording") ]] ||
+    fail 64 "$recording is not of a demo: another --out"
   echo "demo: simulating a drive of $seconds s"
-  rm -f "$recording/made-by"
+  mkdir -p "$recording"
+  echo "not finished" > "$recording/made-by"
   "$bin/gvom-sim" "${config[@]}" --out "$recording" --seconds "$seconds"
   echo "$made_by" > "$recording/made-by"
 }
 
-holds() { compgen -G "$1" > /dev/null; }  # holds PATTERN: some file is like that
+files() { find "$1/" -maxdepth 1 -name "$2" 2> /dev/null; }  # files FOLDER PATTERN: the folder's name is no pattern
+
+holds() { [[ -n $(files "$1" "$2") ]]; }
 
 source_of() {  # source_of LIDAR: the rules of the usage
   local folder pcaps jsons
@@ -28,13 +33,13 @@ source_of() {  # source_of LIDAR: the rules of the usage
   local scans=("$recording/$1")
   if ((${#lidars[@]} == 1)); then scans+=("$recording/velodyne" "$recording"); fi
   for folder in "${scans[@]}"; do
-    if holds "$folder/*.bin" || holds "$folder/*.pcd"; then
+    if holds "$folder" "*.bin" || holds "$folder" "*.pcd"; then
       echo "scans:$folder"
       return
     fi
   done
-  mapfile -t pcaps < <(compgen -G "$recording/*.pcap")
-  mapfile -t jsons < <(compgen -G "$recording/*.json")
+  mapfile -t pcaps < <(files "$recording" "*.pcap")
+  mapfile -t jsons < <(files "$recording" "*.json")
   if ((${#lidars[@]} == 1 && ${#pcaps[@]} == 1 && ${#jsons[@]} == 1)); then
     echo "ouster:${pcaps[0]}?meta=${jsons[0]}"
     return
