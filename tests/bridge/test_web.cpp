@@ -37,7 +37,7 @@ TEST_CASE("lists in keys are parts between commas") {
 TEST_CASE("a misspelt layer or topic is named, with those that there are") {
   services::VehicleConfig config;
   CHECK(bridge::message_settings(config));
-  CHECK(bridge::recorded_topics(config)->size() == 8);
+  CHECK(bridge::recorded_topics(config)->size() == 7);
   config.bridge.grid_map_layers = "height,hight";
   CHECK_THAT(
       bridge::message_settings(config).error().text(),
