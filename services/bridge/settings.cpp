@@ -1,6 +1,7 @@
 #include "services/bridge/settings.hpp"
 
 #include <algorithm>
+#include <boost/asio/ip/address.hpp>
 #include <optional>
 
 namespace gvom::bridge {
@@ -35,6 +36,15 @@ tl::expected<void, ConfigError> check_frame(const services::VehicleConfig& confi
   if (!frame.empty() && frame.front() != '/' && frame.size() <= 255) return {};
   return tl::make_unexpected(
       ConfigError{config.path, key, "expected the name of a frame, without a slash before it"});
+}
+
+tl::expected<void, ConfigError> check_address(const services::VehicleConfig& config) {
+  const std::string& address = config.bridge.foxglove.address;
+  boost::system::error_code fault;
+  if (!address.empty()) boost::asio::ip::make_address(address, fault);
+  if (!fault) return {};
+  return tl::make_unexpected(
+      ConfigError{config.path, "bridge.foxglove.address", "'" + address + "' is no IP address"});
 }
 
 tl::expected<std::set<TopicId>, ConfigError> topics_of(const services::VehicleConfig& config,
@@ -98,7 +108,7 @@ tl::expected<void, ConfigError> check_names(const services::VehicleConfig& confi
   if (auto settings = message_settings(config); !settings) return tl::unexpected(settings.error());
   if (auto topics = recorded_topics(config); !topics) return tl::unexpected(topics.error());
   if (auto topics = ros2_topics(config); !topics) return tl::unexpected(topics.error());
-  return {};
+  return check_address(config);
 }
 
 }  // namespace gvom::bridge

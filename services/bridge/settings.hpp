@@ -30,7 +30,8 @@ tl::expected<std::set<TopicId>, services::ConfigError> recorded_topics(const ser
 /// `bridge.ros2.topics`; errors likewise.
 tl::expected<std::set<TopicId>, services::ConfigError> ros2_topics(const services::VehicleConfig& config);
 
-/// The error of the first of these that has one: what a vehicle's file says of the bridge, wherever it runs.
+/// The error of the first of these that has one, or of `bridge.foxglove.address`: what a vehicle's file says
+/// of the bridge, wherever it runs.
 tl::expected<void, services::ConfigError> check_names(const services::VehicleConfig& config);
 
 /// The parts between commas, without blanks around them; empty ones are left out.

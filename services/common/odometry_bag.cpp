@@ -18,6 +18,8 @@ using Poses = tl::expected<std::vector<StampedPose>, std::string>;
 using Result = tl::expected<void, std::string>;
 
 const std::string kStaticTopic = "/tf_static";
+constexpr std::int64_t kFarAheadNs = 10'000'000'000;
+constexpr std::size_t kMostAhead = 8;  // as many as PoseJudge gets over
 
 struct BagSource {
   std::string path;
@@ -49,11 +51,24 @@ class Collector {
 
   void add(const PoseResult& pose, std::uint64_t message) {
     if (!pose) return leave_out("", message, pose.error());
+    drop_far_ahead(pose->stamp_ns, message);
     if (!poses_.empty() && pose->stamp_ns <= poses_.back().stamp_ns) {
       return leave_out(" that do not go on in time (a looped bag?)", message,
                        stamp_text(pose->stamp_ns) + " s after " + stamp_text(poses_.back().stamp_ns) + " s");
     }
     poses_.push_back(*pose);
+  }
+
+  /// A few poses before this one, far later than it, were of a time that was not yet: not all that follow
+  /// them are wrong.
+  void drop_far_ahead(std::int64_t stamp_ns, std::uint64_t message) {
+    std::size_t ahead = 0;
+    while (ahead < poses_.size() && poses_[poses_.size() - 1 - ahead].stamp_ns >= stamp_ns + kFarAheadNs)
+      ++ahead;
+    if (ahead == 0 || ahead > kMostAhead || ahead == poses_.size()) return;
+    for (; ahead > 0; --ahead, poses_.pop_back())
+      leave_out(" far ahead of those that follow", message,
+                stamp_text(stamp_ns) + " s after " + stamp_text(poses_.back().stamp_ns) + " s");
   }
 
   void leave_out(const std::string& kind, std::uint64_t message, const std::string& reason) {

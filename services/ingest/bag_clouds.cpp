@@ -22,12 +22,20 @@ BagClouds::BagClouds(bag::BagReader bag, const std::string& name, const CloudOpt
 tl::expected<void, std::string> BagClouds::judge_first() {
   bag::Message message;
   Sweep sweep;
-  if (!bag_.next(message)) return tl::unexpected(name_ + ": has no messages");
-  if (const auto made = make(message, sweep); !made)
-    return tl::unexpected(name_ + ": message 1: " + made.error());
-  state_.counters = {};
-  bag_.rewind();
-  return {};
+  std::string unreadable;  // the first; counted when it is mapped
+  while (bag_.next(message)) {
+    const std::string which = name_ + ": message " + std::to_string(message.number) + ": ";
+    if (const auto read = ros::read_point_cloud(message.data, cloud_); !read) {
+      if (unreadable.empty()) unreadable = which + read.error();
+      continue;
+    }
+    if (const auto made = sweeps_.make(cloud_, state_, sweep); !made)
+      return tl::unexpected(which + made.error());
+    state_.counters = {};
+    bag_.rewind();
+    return {};
+  }
+  return tl::unexpected(unreadable.empty() ? name_ + ": has no messages" : unreadable);
 }
 
 tl::expected<void, std::string> BagClouds::make(const bag::Message& message, Sweep& out) {

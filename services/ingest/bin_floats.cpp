@@ -191,11 +191,7 @@ Hits count_hits(Bytes file, std::size_t floats) {
   const std::size_t bytes = floats * sizeof(float);
   for (std::size_t at = 0; at + bytes <= file.size; at += bytes) {
     const std::uint8_t* point = file.data + at;
-    const double distance = std::hypot(static_cast<double>(load_le<float>(point)), load_le<float>(point + 4),
-                                       load_le<float>(point + 8));
-    if (!std::isfinite(distance) || distance == 0) continue;
-    ++hits.count;
-    if (distance > kFarHitM) ++hits.far;
+    hits.add(load_le<float>(point), load_le<float>(point + 4), load_le<float>(point + 8));
   }
   return hits;
 }

@@ -9,6 +9,7 @@
 #include <tl/expected.hpp>
 
 #include "services/ingest/fragments.hpp"
+#include "services/ingest/hits.hpp"
 
 namespace gvom::ingest {
 
@@ -36,15 +37,6 @@ FloatsJudgement judge_floats(Bytes file);
 /// An error if `file`, taken as points of `floats` floats, is not what a lidar writes: its values say another
 /// number, or coordinates are not metres.
 tl::expected<void, std::string> check_floats(Bytes file, std::size_t floats);
-
-/// Beyond the range of any lidar of a vehicle (300 m); half of the hits of the scans that were looked at are
-/// beyond 6 to 10 m, which is 600 to 1000 if centimetres are taken for metres.
-inline constexpr double kFarHitM = 500;
-
-struct Hits {
-  std::size_t count = 0;  ///< Points whose x, y, z are numbers and not all zero.
-  std::size_t far = 0;    ///< Those of them beyond kFarHitM. If most are, they are not in metres.
-};
 
 Hits count_hits(Bytes file, std::size_t floats);
 

@@ -11,6 +11,7 @@ constexpr std::int64_t kSecond = 1'000'000'000;
 constexpr std::int64_t kOldestUnix = 1'000'000'000 * kSecond;   // of 2001
 constexpr std::int64_t kLongestUptime = 100'000'000 * kSecond;  // three years
 constexpr std::int64_t kNear = kSecond / 2;                     // of a live offset: things come late
+constexpr std::int64_t kTogether = 2 * kSecond;                 // begins and ends of one drive's recordings
 constexpr std::int64_t kSlack = kSecond * 3 / 10;  // of recordings: odometry need not reach as far
 
 struct Known {
@@ -63,6 +64,22 @@ const char* guess_clock(const TimeSpan& sweeps, const TimeSpan& odometry) {
     }
   if (fits > 0) return fits == 1 ? guess : "";
   return guess_boot(sweeps.first_ns, odometry.first_ns);
+}
+
+const char* guess_shift(const TimeSpan& sweeps, const TimeSpan& odometry) {
+  const std::int64_t begin_ns = sweeps.first_ns - odometry.first_ns;
+  const std::int64_t end_ns = sweeps.last_ns - odometry.last_ns;
+  const char* guess = "";
+  std::int64_t least_ns = 2 * kTogether;
+  for (const Known& known : kKnown)
+    for (const std::int64_t ahead_ns : {known.offset_s * kSecond, -known.offset_s * kSecond}) {
+      const std::int64_t begin_off_ns = std::llabs(begin_ns - ahead_ns);
+      const std::int64_t end_off_ns = std::llabs(end_ns - ahead_ns);
+      if (std::max(begin_off_ns, end_off_ns) > kTogether || begin_off_ns + end_off_ns >= least_ns) continue;
+      least_ns = begin_off_ns + end_off_ns;
+      guess = known.words;
+    }
+  return guess;
 }
 
 }  // namespace gvom::ingest

@@ -39,4 +39,7 @@ const char* guess_clock(std::int64_t ahead_ns, std::int64_t lidar_ns, std::int64
 /// which the sweeps would lie within the odometry.
 const char* guess_clock(const TimeSpan& sweeps, const TimeSpan& odometry);
 
+/// Of recordings whose times meet in part: the known offset by which both would begin and end together.
+const char* guess_shift(const TimeSpan& sweeps, const TimeSpan& odometry);
+
 }  // namespace gvom::ingest

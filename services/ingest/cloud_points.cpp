@@ -1,25 +1,24 @@
 #include "services/ingest/cloud_points.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace gvom::ingest {
 
-tl::expected<void, std::string> take_points(const PcdCloud& cloud, std::size_t count, Sweep& out,
+tl::expected<Hits, std::string> take_points(const PcdCloud& cloud, std::size_t count, Sweep& out,
                                             std::vector<bool>& is_hit) {
   const PcdField* const axes[3] = {cloud.find("x"), cloud.find("y"), cloud.find("z")};
   for (const PcdField* axis : axes) {
     if (axis == nullptr || axis->type != 'F' || axis->count != 1)
       return tl::unexpected(std::string("no floating-point fields x, y, z"));
   }
+  Hits hits;
   is_hit.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
     const Return r{cloud.number(*axes[0], i), cloud.number(*axes[1], i), cloud.number(*axes[2], i), 0};
-    const bool finite = std::isfinite(r.x_m) && std::isfinite(r.y_m) && std::isfinite(r.z_m);
-    is_hit[i] = finite && (r.x_m != 0 || r.y_m != 0 || r.z_m != 0);
+    is_hit[i] = hits.add(r.x_m, r.y_m, r.z_m);
     out.returns.push_back(r);
   }
-  return {};
+  return hits.judge().map([&] { return hits; });
 }
 
 void set_times(const std::vector<std::int64_t>& times_ns, std::int64_t stamp_ns, Sweep& out) {

@@ -8,13 +8,14 @@
 #include <tl/expected.hpp>
 
 #include "core/sweep.hpp"
+#include "services/ingest/hits.hpp"
 #include "services/ingest/pcd.hpp"
 
 namespace gvom::ingest {
 
 /// Appends the first `count` points to `out.returns`, their times not known yet, and says of each whether it
-/// is a hit: finite, and not 0, 0, 0. An error without floating-point fields x, y, z.
-tl::expected<void, std::string> take_points(const PcdCloud& cloud, std::size_t count, Sweep& out,
+/// is a hit. An error without floating-point fields x, y, z, and if most hits cannot be in metres.
+tl::expected<Hits, std::string> take_points(const PcdCloud& cloud, std::size_t count, Sweep& out,
                                             std::vector<bool>& is_hit);
 
 /// Gives the returns of `out` their times, one a return; `stamp_ns` is the sweep's time if it has no return.

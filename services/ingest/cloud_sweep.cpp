@@ -97,11 +97,12 @@ Result CloudSweep::make(const ros::PointCloud2In& cloud, SourceState& state, Swe
                           ": such a cloud can't be deskewed; deskew=off maps it all the same");
   }
   const std::size_t count = limit(state);
-  auto done = take_points(points_, count, out, is_hit_);
-  if (done)
-    done = times_.read({points_, is_hit_, cloud.header.stamp_ns, topic_, time_option_}, point_times_ns_,
-                       state.warnings);
-  if (!done) return done;
+  const auto hits = take_points(points_, count, out, is_hit_);
+  if (!hits) return tl::unexpected(hits.error());
+  if (const auto timed = times_.read({points_, is_hit_, cloud.header.stamp_ns, topic_, time_option_},
+                                     point_times_ns_, state.warnings);
+      !timed)
+    return timed;
   set_times(point_times_ns_, cloud.header.stamp_ns, out);
   return {};
 }

@@ -93,7 +93,8 @@ inline constexpr CounterRow kIngestCounters[] = {
     {"drop_packet_fragment", &IngestCounts::lost_fragments, "datagrams of which a fragment is missing"},
     {"drop_packet_kernel", &IngestCounts::kernel_drops, "packets that the socket's queue had no room for"},
     {"packet_out_of_order", &IngestCounts::out_of_order_packets, "packets out of order, used"},
-    {"column_invalid", &IngestCounts::invalid_columns, "columns that the sensor marks invalid"},
+    {"column_invalid", &IngestCounts::invalid_columns,
+     "columns that the sensor marks invalid, or that cannot be"},
     {"column_missing", &IngestCounts::missing_columns, "columns that never came"},
     {"epochs", &IngestCounts::epochs, "times that the odometry's clock began anew"},
 };

@@ -140,7 +140,7 @@ void IngestNode::map_sweep(const Sweep& sweep) {
   const std::int64_t begin_ns = ipc::monotonic_ns();
   const auto shape = mapper_.count(sweep, odometry_.poses());
   if (!shape) return fail(shape.error());
-  losses_.count_placed();
+  losses_.count_placed(sweep.stamp_ns);
   if (!publish(sweep, *shape, begin_ns)) return;
   ++counters_.mapped_sweeps;
   counters_.add(mapper_.filter_counts());

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace gvom::ingest {
 
 namespace {
@@ -24,12 +26,18 @@ std::string key_of(SweepLoss why, const services::OdometryConfig& config) {
   return {};
 }
 
-/// If no sweep met the odometry: whose clock it may be, and the keys for that.
+/// If no sweep met the odometry, or both would span the same time by other clocks: whose clock it may be, and
+/// the keys for that.
 std::string guess(const SweepLosses& losses, const TimeSpan& odometry) {
   const SweepLosses::Of& before = losses.of(SweepLoss::before_odometry);
   const SweepLosses::Of& after = losses.of(SweepLoss::after_odometry);
-  if (losses.placed() != 0 || (before.count == 0) == (after.count == 0)) return {};
-  const std::string words = guess_clock(before.count != 0 ? before.stamps : after.stamps, odometry);
+  const SweepLosses::Of& placed = losses.placed();
+  if ((before.count == 0) == (after.count == 0)) return {};
+  const TimeSpan& lost = before.count != 0 ? before.stamps : after.stamps;
+  const TimeSpan all{std::min(lost.first_ns, placed.stamps.first_ns),
+                     std::max(lost.last_ns, placed.stamps.last_ns)};
+  const std::string words = placed.count == 0 ? guess_clock(lost, odometry) : guess_shift(all, odometry);
+  if (placed.count != 0 && words.empty()) return {};
   return (words.empty() ? "" : " (" + words + ")") +
          "; for clocks that differ there are lidars.NAME.clock_offset_s and lidars.NAME.clock: arrival";
 }

@@ -90,9 +90,7 @@ int main(int argc, char** argv) {
   cli.also_check([&](const services::VehicleConfig& config) -> tl::expected<void, services::ConfigError> {
     const auto lidar = find_lidar(config, name);
     if (!lidar) return tl::unexpected(lidar.error());
-    if (!(*lidar)->source.empty()) return {};
-    return tl::unexpected(services::ConfigError{config.path, "lidars." + name + ".source",
-                                                "is empty; give one in the file or by --set"});
+    return ingest::check_given(config, **lidar);
   });
   cli.on_check([&](const services::VehicleConfig& config) {
     return check(*services::find_lidar(config, name).value());

@@ -20,6 +20,7 @@ constexpr double kMostFramesPerSecond = 20;
 constexpr double kLeastFramesPerSecond = 10;
 constexpr std::uint64_t kMaxTimestampNs = std::uint64_t{1} << 62;
 constexpr std::uint64_t kMaxRepeatNs = 1'000'000'000;
+constexpr std::uint64_t kMostApartNs = 1'000'000'000;  // columns of a packet: a turn takes 0.2 s at most
 
 /// The pixels of one column, with their ranges read by `range_mm`. Pixels without a return leave nothing;
 /// the write is unconditional and only the count depends on the range, so that nothing mispredicts.
@@ -45,6 +46,7 @@ OusterDecoder::OusterDecoder(OusterMetadata metadata, const SourceOptions& optio
       builder_(options, static_cast<std::size_t>(metadata_.columns_per_frame), state.counters),
       turns_(metadata_, state.warnings),
       scratch_(2 * metadata_.beams()),
+      times_(static_cast<std::size_t>(metadata_.columns_per_packet)),
       fresh_(static_cast<std::size_t>(metadata_.columns_per_frame), ColumnState::outside_window),
       columns_(fresh_) {
   for (int i = 0; i < metadata_.window_columns(); ++i) {
@@ -235,9 +237,11 @@ bool OusterDecoder::close(Sweep& out) {
   return builder_.close(static_cast<double>(received_) / expected, received_ >= expected, out);
 }
 
-bool OusterDecoder::usable(const OusterColumn& column) const {
+bool OusterDecoder::usable(const OusterColumn& column, std::uint64_t middle_ns) const {
   const bool other_frame = metadata_.layout.header == OusterHeader::none && column.frame_id != frame_;
-  return column.valid && !other_frame && column.timestamp_ns <= kMaxTimestampNs &&
+  const std::uint64_t time_ns = column.timestamp_ns;
+  const bool near = std::max(time_ns, middle_ns) - std::min(time_ns, middle_ns) < kMostApartNs;
+  return column.valid && !other_frame && near && time_ns <= kMaxTimestampNs &&
          column.measurement_id < columns_.size() &&
          columns_[column.measurement_id] != ColumnState::outside_window;
 }
@@ -245,11 +249,12 @@ bool OusterDecoder::usable(const OusterColumn& column) const {
 void OusterDecoder::use(const Packet& packet) {
   const std::size_t beams = metadata_.beams();
   const std::uint8_t* bytes = packet.data + metadata_.layout.packet_header;
+  const std::uint64_t middle_ns = middle_time_ns(metadata_, packet.data, times_);
   bool duplicate = false;
   bool behind = false;
   for (int i = 0; i < metadata_.columns_per_packet; ++i, bytes += metadata_.layout.column_size(beams)) {
     const OusterColumn column = read_ouster_column(metadata_.layout, bytes, beams);
-    if (!usable(column)) {
+    if (!usable(column, middle_ns)) {
       ++state_.counters.invalid_columns;
     } else if (columns_[column.measurement_id] == ColumnState::received) {
       duplicate = true;

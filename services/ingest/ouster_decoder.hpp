@@ -46,7 +46,7 @@ class OusterDecoder final : public Decoder {
   bool count_stray(Belongs belongs, const std::uint8_t* packet);
   void begin(std::uint16_t frame);
   bool close(Sweep& out);
-  [[nodiscard]] bool usable(const OusterColumn& column) const;
+  [[nodiscard]] bool usable(const OusterColumn& column, std::uint64_t middle_ns) const;
   void use(const Packet& packet);
   void use_column(const std::uint8_t* bytes, const OusterColumn& column);
   std::size_t project(const std::uint8_t* pixels, std::uint16_t measurement_id, std::uint32_t time_index);
@@ -59,6 +59,7 @@ class OusterDecoder final : public Decoder {
   OusterTurns turns_;
   RestartDetector restart_;
   std::vector<Return> scratch_;       // the returns of one column
+  std::vector<std::uint64_t> times_;  // of one packet
   std::vector<ColumnState> fresh_;    // a frame of which nothing came, by measurement id
   std::vector<ColumnState> columns_;  // the open frame
   int received_ = 0;                  // columns of the open frame

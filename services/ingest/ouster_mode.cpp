@@ -72,4 +72,19 @@ bool is_of_other_mode(const OusterMetadata& metadata, const std::uint8_t* packet
   return differs(column_us, expected_us);
 }
 
+std::uint64_t middle_time_ns(const OusterMetadata& metadata, const std::uint8_t* packet,
+                             std::vector<std::uint64_t>& scratch) {
+  scratch.clear();
+  const std::uint8_t* bytes = packet + metadata.layout.packet_header;
+  for (int i = 0; i < metadata.columns_per_packet; ++i) {
+    const OusterColumn column = read_ouster_column(metadata.layout, bytes, metadata.beams());
+    if (column.valid) scratch.push_back(column.timestamp_ns);
+    bytes += metadata.layout.column_size(metadata.beams());
+  }
+  if (scratch.empty()) return 0;
+  const auto middle = scratch.begin() + static_cast<std::ptrdiff_t>(scratch.size() / 2);
+  std::nth_element(scratch.begin(), middle, scratch.end());
+  return *middle;
+}
+
 }  // namespace gvom::ingest

@@ -1,7 +1,8 @@
-// Whether packets are of the mode that the metadata tells of: the size of a packet does not say it.
+// What the columns of a packet tell together: its mode, which the size does not say, and its time.
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "services/ingest/ouster_metadata.hpp"
 #include "services/ingest/source.hpp"
@@ -12,5 +13,9 @@ namespace gvom::ingest {
 /// or takes another time, or that they are sent outside of its window; `why` says how. Half the columns on a
 /// whole turn would lie at wrong azimuths.
 bool is_of_other_mode(const OusterMetadata& metadata, const std::uint8_t* packet, KindText& why);
+
+/// The middle one of the times of its valid columns; 0 without one. `scratch` has room for all its columns.
+std::uint64_t middle_time_ns(const OusterMetadata& metadata, const std::uint8_t* packet,
+                             std::vector<std::uint64_t>& scratch);
 
 }  // namespace gvom::ingest

@@ -17,6 +17,12 @@ Packet packet_of(const std::uint8_t* data, std::size_t size, std::int64_t captur
   return packet;
 }
 
+/// Packets of all profiles are whole words; Ouster's driver has published its buffer, a byte longer than what
+/// it received.
+std::size_t without_spare_byte(std::size_t size) {
+  return size % 4 == 1 ? size - 1 : size;
+}
+
 }  // namespace
 
 tl::expected<void, std::string> unpack(PacketMessages kind, ros::Bytes message, std::int64_t came_ns,
@@ -25,7 +31,7 @@ tl::expected<void, std::string> unpack(PacketMessages kind, ros::Bytes message, 
   if (kind == PacketMessages::ouster) {
     ros::Bytes bytes;
     const auto read = ros::read_ouster_packet(message, bytes);
-    if (read) out.push_back(packet_of(bytes.data, bytes.size, came_ns));
+    if (read) out.push_back(packet_of(bytes.data, without_spare_byte(bytes.size), came_ns));
     return read;
   }
   ros::HeaderIn header;

@@ -29,7 +29,7 @@ std::string why_no_sweep(const SourceCounters& c) {
       {c.late_packets, "packets of a sweep that is closed"},
       {c.duplicate_packets, "packets that came again"},
       {c.lost_fragments, "datagrams of which a fragment is missing"},
-      {c.invalid_columns, "columns that the sensor marks invalid"},
+      {c.invalid_columns, "columns that the sensor marks invalid, or that cannot be"},
   };
   std::string text = "no sweep came of " + std::to_string(c.packets) + " packets";
   const char* between = ": ";

@@ -25,6 +25,7 @@ struct Header {
   std::size_t point_bytes = 0;
   std::size_t values = 0;  // numbers a point
   std::string data;        // ascii, binary, binary_compressed
+  std::size_t lines = 0;
   std::size_t body_at = 0;
 };
 
@@ -116,14 +117,13 @@ tl::expected<void, std::string> check_fields(Header& header) {
 tl::expected<Header, std::string> read_header(std::string_view file) {
   Header header;
   std::size_t at = 0;
-  int line_number = 0;
   while (header.data.empty()) {
     const std::size_t end = file.find('\n', at);
     if (end == std::string_view::npos || end - at > 65536)
       return tl::unexpected(std::string("no DATA line: not a PCD file"));
-    ++line_number;
+    ++header.lines;
     const auto read = read_header_line(std::string(file.substr(at, end - at)), header);
-    if (!read) return tl::unexpected("line " + std::to_string(line_number) + ": " + read.error());
+    if (!read) return tl::unexpected("line " + std::to_string(header.lines) + ": " + read.error());
     at = end + 1;
   }
   header.body_at = at;
@@ -158,32 +158,53 @@ bool store_word(const PcdField& field, std::string_view word, std::uint8_t* to) 
   }
 }
 
+constexpr char kBlanks[] = " \t\r";
+
 std::string_view next_word(std::string_view& text) {
-  const std::size_t begin = text.find_first_not_of(" \t\r\n");
+  const std::size_t begin = text.find_first_not_of(kBlanks);
   if (begin == std::string_view::npos) return {};
-  const std::size_t end = std::min(text.find_first_of(" \t\r\n", begin), text.size());
+  const std::size_t end = std::min(text.find_first_of(kBlanks, begin), text.size());
   const std::string_view word = text.substr(begin, end - begin);
   text.remove_prefix(end);
   return word;
 }
 
-tl::expected<void, std::string> unpack_ascii(const Header& header, std::string_view text,
-                                             std::vector<std::uint8_t>& out) {
-  if (header.cloud.points * header.values > text.size())
-    return tl::unexpected(std::string("fewer points than POINTS says"));
-  out.resize(header.cloud.points * header.point_bytes);
-  std::uint8_t* to = out.data();
-  for (std::size_t point = 0; point < header.cloud.points; ++point) {
-    for (const PcdField& field : header.cloud.fields) {
-      for (std::size_t i = 0; i < field.count; ++i, to += field.size) {
-        const std::string_view word = next_word(text);
-        if (word.empty() || !store_word(field, word, to)) {
-          return tl::unexpected("point " + std::to_string(point) + ": " + field.name + " is '" +
-                                std::string(word) + "'");
-        }
-      }
+tl::expected<void, std::string> store_row(const Header& header, std::string_view row, std::uint8_t* to) {
+  for (const PcdField& field : header.cloud.fields) {
+    for (std::size_t i = 0; i < field.count; ++i, to += field.size) {
+      const std::string_view word = next_word(row);
+      if (word.empty() || !store_word(field, word, to))
+        return tl::unexpected(field.name + " is '" + std::string(word) + "'");
     }
   }
+  if (const std::string_view word = next_word(row); !word.empty())
+    return tl::unexpected("more than " + std::to_string(header.values) +
+                          " numbers, FIELDS and COUNT have no '" + std::string(word) + "'");
+  return {};
+}
+
+/// A point a line; blank lines are none.
+tl::expected<void, std::string> unpack_ascii(Header& header, std::string_view text,
+                                             std::vector<std::uint8_t>& out) {
+  const std::size_t points = header.cloud.points;
+  if (points * header.values > text.size())
+    return tl::unexpected(std::string("fewer points than POINTS says"));
+  out.resize(points * header.point_bytes);
+  std::size_t rows = 0;
+  for (std::size_t line = header.lines + 1; !text.empty(); ++line) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const std::string_view row = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    if (row.find_first_not_of(kBlanks) == std::string_view::npos) continue;
+    if (rows < points) {
+      const auto stored = store_row(header, row, out.data() + rows * header.point_bytes);
+      if (!stored) return tl::unexpected("line " + std::to_string(line) + ": " + stored.error());
+    }
+    ++rows;
+  }
+  if (rows < points)
+    return tl::unexpected("holds " + std::to_string(rows) + " of its " + std::to_string(points) + " points");
+  header.cloud.more_points = rows - points;
   return {};
 }
 

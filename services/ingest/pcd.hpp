@@ -26,7 +26,7 @@ struct PcdField {
 struct PcdCloud {
   std::vector<PcdField> fields;
   std::size_t points = 0;
-  std::size_t more_points = 0;  ///< What DATA binary holds beyond `points`.
+  std::size_t more_points = 0;  ///< What DATA binary or ascii holds beyond `points`.
   std::size_t height = 1;       ///< Above 1: organised, rows of equal length.
   Bytes body;
 

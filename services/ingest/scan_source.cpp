@@ -20,6 +20,7 @@ namespace gvom::ingest {
 namespace {
 
 constexpr std::size_t kFilesToJudge = 20;
+constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{1} << 30;
 
 const std::string kSayFloats = ": say scans:PATH?floats=4 (x y z intensity), 5 (nuScenes) or 6 (Waymo)";
 
@@ -60,7 +61,7 @@ ScanSource::ScanSource(std::vector<ScanFile> scans, const SourceOptions& options
     const auto size = std::filesystem::file_size(scan.path, error);
     if (!error) largest = std::max(largest, size);
   }
-  file_.reserve(largest);
+  file_.reserve(std::min(largest, kMaxFileBytes));
 }
 
 /// By the values of the first files that tell it, else by the sizes of all.
@@ -132,7 +133,13 @@ tl::expected<void, std::string> ScanSource::read_file(const std::string& path) {
   if (file < 0) return tl::unexpected(std::string(std::strerror(errno)));
   struct stat status {};
   ::fstat(file, &status);
-  file_.resize(static_cast<std::size_t>(status.st_size));
+  const auto bytes = static_cast<std::uintmax_t>(status.st_size);
+  if (bytes > kMaxFileBytes) {
+    ::close(file);
+    return tl::unexpected("its " + std::to_string(bytes) +
+                          " bytes are no sweep's: a gigabyte is read at most");
+  }
+  file_.resize(bytes);
   std::size_t done = 0;
   ssize_t got = 1;
   while (got > 0 && done < file_.size()) {
@@ -165,18 +172,10 @@ tl::expected<void, std::string> ScanSource::judge_file(const ScanFile& scan) {
   return {};
 }
 
-/// Far hits are refused also where the number of floats was asked for: it says nothing of units.
-tl::expected<void, std::string> ScanSource::judge_hits(const ScanFile& scan) {
-  const Hits hits = count_hits({file_.data(), file_.size()}, floats_);
-  if (2 * hits.far > hits.count) {
-    return tl::unexpected(std::to_string(hits.far) + " of its " + std::to_string(hits.count) +
-                          " hits are beyond 500 m: not metres?");
-  }
-  if (hits.count == 0 && !told_no_hits_) {
-    told_no_hits_ = true;
-    state_.warnings.push_back(scan.path + ": no hit in the whole scan: empty, or all zero or not a number");
-  }
-  return {};
+void ScanSource::tell_no_hits(const ScanFile& scan, const Hits& hits) {
+  if (hits.count() > 0 || told_no_hits_) return;
+  told_no_hits_ = true;
+  state_.warnings.push_back(scan.path + ": no hit in the whole scan: empty, or all zero or not a number");
 }
 
 tl::expected<void, std::string> ScanSource::read_bin(const ScanFile& scan, Sweep& out) {
@@ -185,9 +184,11 @@ tl::expected<void, std::string> ScanSource::read_bin(const ScanFile& scan, Sweep
     return tl::unexpected("its size of " + std::to_string(file_.size()) + " bytes is not a multiple of " +
                           std::to_string(bytes));
   }
-  auto judged = judge_file(scan);
-  if (judged) judged = judge_hits(scan);
-  if (!judged) return judged;
+  if (auto judged = judge_file(scan); !judged) return judged;
+  // Far hits are refused also where the number of floats was asked for: it says nothing of units.
+  const Hits hits = count_hits({file_.data(), file_.size()}, floats_);
+  if (auto judged = hits.judge(); !judged) return judged;
+  tell_no_hits(scan, hits);
   out.times_ns.push_back(scan.stamp_ns);
   out.stamp_ns = scan.stamp_ns;
   const std::size_t count = limit(scan, file_.size() / bytes);
@@ -206,7 +207,9 @@ tl::expected<void, std::string> ScanSource::read_places(const ScanFile& scan, co
                               " points more than its header says, which are left out");
     told_more_points_ = true;
   }
-  return take_points(cloud, limit(scan, cloud.points), out, is_hit_);
+  return take_points(cloud, limit(scan, cloud.points), out, is_hit_).map([&](const Hits& hits) {
+    tell_no_hits(scan, hits);
+  });
 }
 
 tl::expected<void, std::string> ScanSource::read_pcd(const ScanFile& scan, Sweep& out) {

@@ -39,7 +39,7 @@ class ScanSource final : public Source {
              const Format& format);
   tl::expected<void, std::string> find_floats();
   tl::expected<void, std::string> judge_file(const ScanFile& scan);
-  tl::expected<void, std::string> judge_hits(const ScanFile& scan);
+  void tell_no_hits(const ScanFile& scan, const Hits& hits);
   tl::expected<void, std::string> read_file(const std::string& path);
   tl::expected<void, std::string> read_bin(const ScanFile& scan, Sweep& out);
   tl::expected<void, std::string> read_pcd(const ScanFile& scan, Sweep& out);

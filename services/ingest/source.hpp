@@ -39,7 +39,7 @@ struct SourceCounters {
   std::uint64_t fragments = 0;             ///< IP fragments seen.
   std::uint64_t lost_fragments = 0;        ///< Datagrams given up because a fragment is missing.
   std::uint64_t kernel_drops = 0;          ///< Lost in the socket's queue (live only).
-  std::uint64_t invalid_columns = 0;       ///< Columns that the sensor itself marked invalid.
+  std::uint64_t invalid_columns = 0;       ///< That the sensor marked invalid, or that cannot be.
   std::uint64_t overflow_returns = 0;      ///< Beyond `max_returns`.
 
   // Nothing that was dropped: what tells a person more about the above.

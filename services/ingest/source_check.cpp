@@ -79,4 +79,11 @@ tl::expected<CheckedSource, SourceError> check_source(const services::LidarConfi
   return checked;
 }
 
+tl::expected<void, services::ConfigError> check_given(const services::VehicleConfig& config,
+                                                      const services::LidarConfig& lidar) {
+  if (!lidar.source.empty()) return {};
+  return tl::unexpected(services::ConfigError{config.path, "lidars." + lidar.name + ".source",
+                                              "is empty; give one in the file or by --set"});
+}
+
 }  // namespace gvom::ingest

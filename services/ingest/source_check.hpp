@@ -7,6 +7,7 @@
 
 #include <tl/expected.hpp>
 
+#include "services/common/config_file.hpp"
 #include "services/common/vehicle_config.hpp"
 #include "services/ingest/source.hpp"
 
@@ -22,5 +23,9 @@ struct CheckedSource {
 /// fullest. An error too if there is none, or they all have too few of their columns. Of a sensor it binds
 /// the port.
 tl::expected<CheckedSource, SourceError> check_source(const services::LidarConfig& lidar);
+
+/// An error where the file names no source for `lidar`.
+tl::expected<void, services::ConfigError> check_given(const services::VehicleConfig& config,
+                                                      const services::LidarConfig& lidar);
 
 }  // namespace gvom::ingest

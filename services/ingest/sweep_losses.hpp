@@ -29,17 +29,11 @@ class SweepLosses {
     TimeSpan stamps;  ///< From the first of these sweeps to the last; nothing if there is none.
   };
 
-  void count(SweepLoss why, std::int64_t stamp_ns) {
-    Of& of = of_[static_cast<std::size_t>(why)];
-    if (of.count++ == 0) of.stamps = {stamp_ns, stamp_ns};
-    of.stamps.first_ns = std::min(of.stamps.first_ns, stamp_ns);
-    of.stamps.last_ns = std::max(of.stamps.last_ns, stamp_ns);
-  }
-
-  void count_placed() { ++placed_; }
+  void count(SweepLoss why, std::int64_t stamp_ns) { count(of_[static_cast<std::size_t>(why)], stamp_ns); }
+  void count_placed(std::int64_t stamp_ns) { count(placed_, stamp_ns); }
 
   [[nodiscard]] const Of& of(SweepLoss why) const { return of_[static_cast<std::size_t>(why)]; }
-  [[nodiscard]] std::uint64_t placed() const { return placed_; }
+  [[nodiscard]] const Of& placed() const { return placed_; }
   [[nodiscard]] std::uint64_t all() const {
     std::uint64_t all = 0;
     for (const Of& of : of_) all += of.count;
@@ -47,8 +41,14 @@ class SweepLosses {
   }
 
  private:
+  static void count(Of& of, std::int64_t stamp_ns) {
+    if (of.count++ == 0) of.stamps = {stamp_ns, stamp_ns};
+    of.stamps.first_ns = std::min(of.stamps.first_ns, stamp_ns);
+    of.stamps.last_ns = std::max(of.stamps.last_ns, stamp_ns);
+  }
+
   std::array<Of, static_cast<std::size_t>(SweepLoss::count)> of_{};
-  std::uint64_t placed_ = 0;
+  Of placed_;
 };
 
 }  // namespace gvom::ingest

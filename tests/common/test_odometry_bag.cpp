@@ -81,6 +81,21 @@ TEST_CASE("what is no pose, of another frame or not newer is left out, counted a
             name + "3 poses that do not go on in time (a looped bag?); the first: message 4: 1 s after 3 s"});
 }
 
+TEST_CASE("a few poses far ahead of those that follow do not cost these") {
+  Bag bag;
+  const auto topic = bag.topic("/odom", kOdometryType);
+  for (int i = 1; i < 9; ++i) {
+    const bool ahead = i == 3 || i == 4;
+    bag.add(topic, odometry_message((i + (ahead ? 3600 : 0)) * kSecond_ns, i));
+  }
+  const auto poses = bag.poses("?topic=/odom");
+  REQUIRE(poses.size() == 6);
+  CHECK(poses[2].stamp_ns == 5 * kSecond_ns);
+  CHECK(bag.warnings ==
+        std::vector<std::string>{bag.path() + " /odom: left out 2 poses far ahead of those that follow; the "
+                                              "first: message 5: 5 s after 3604 s"});
+}
+
 TEST_CASE("tf: the moving link, with those that stand still before and behind it") {
   Bag bag;
   const auto tf = bag.topic("/tf", kTfType);

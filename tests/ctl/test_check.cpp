@@ -107,8 +107,9 @@ TEST_CASE("check: what does not work here is an error, and the rest is looked at
 
 TEST_CASE("check and reload: names that only the bridge looks up make the file wrong, too") {
   const Checked checked;
-  for (const char* set : {"bridge.mcap.topics=/costmap", "bridge.ros2.topics=/costmap",
-                          "bridge.points_layers=/costmap", "bridge.base_frame=/costmap"})
+  for (const char* set :
+       {"bridge.mcap.topics=/costmap", "bridge.ros2.topics=/costmap", "bridge.points_layers=/costmap",
+        "bridge.base_frame=/costmap", "bridge.ros2.distro=Humble", "bridge.foxglove.address=localhost"})
     for (const char* command : {"check", "reload"}) {
       std::vector<std::string> arguments{command, checked.vehicle.file, "--set", set};
       if (arguments[0] == "reload") arguments.insert(arguments.begin() + 1, "--config");
@@ -117,6 +118,17 @@ TEST_CASE("check and reload: names that only the bridge looks up make the file w
       CHECK(ended.code == 78);
       CHECK_THAT(ended.output, Contains(std::string(set).substr(0, std::string(set).find('='))));
     }
+}
+
+TEST_CASE("reload: a lidar without a source is told before anything is restarted") {
+  const Checked checked;
+  std::vector<std::string> arguments{"reload", "--config", checked.vehicle.file, "--dry-run"};
+  for (const std::string& given : checked.vehicle.sets) arguments.insert(arguments.end(), {"--set", given});
+  arguments.insert(arguments.end(), {"--set", "lidars.rear.source="});
+  const Ended ended = run("gvomctl", arguments, checked.folder.path());
+  INFO(ended.output);
+  CHECK(ended.code == 78);
+  CHECK_THAT(ended.output, Contains("lidars.rear.source: is empty") && Contains("nothing was changed"));
 }
 
 TEST_CASE("gvom-ingest --check opens the source and decodes a sweep of a recording") {

@@ -25,14 +25,14 @@ void put(Octets& point, std::size_t offset, T value, bool big_endian = false) {
     point.at(offset + i) = bytes[big_endian ? sizeof(T) - 1 - i : i];
 }
 
-/// Points at (1 + i, 0, 0) m, `bytes` each; `add_time` puts the time of point i.
+/// Points at (1 + i % 100, 0, 0) m, `bytes` each; `add_time` puts the time of point i.
 template <typename AddTime>
 Octets points(int count, std::size_t bytes, AddTime add_time) {
   Octets data;
   for (int i = 0; i < count; ++i) {
     Octets point(bytes, 0xEE);
     for (const std::size_t offset : {0, 4, 8})
-      put(point, offset, offset == 0 ? 1.0f + static_cast<float>(i) : 0.0f);
+      put(point, offset, offset == 0 ? 1.0f + static_cast<float>(i % 100) : 0.0f);
     add_time(point, i);
     append(data, point);
   }
@@ -206,6 +206,29 @@ TEST_CASE("a cloud in the middle that can't be a sweep is passed over, counted a
   CHECK(source->counters().sweeps == 4);
   REQUIRE(source->warnings().size() == 1);
   CHECK(source->warnings()[0].find("bag.mcap /lidar: message 2: byte ") != std::string::npos);
+}
+
+TEST_CASE("a first cloud that cannot be read is passed over like any other") {
+  TopicBag bag(kType);
+  Octets cut = cloud_message(kNoon_ns, kOuster, ouster_points());
+  cut.resize(cut.size() - 30);
+  bag.add(1, cut);
+  CHECK(open_error(bag.uri()).find("bag.mcap /lidar: message 1: byte ") != std::string::npos);
+  bag.add(2, cloud_message(kNoon_ns, kOuster, ouster_points()));
+  const auto source = open(bag.uri());
+  CHECK(all_sweeps(*source).size() == 1);
+  CHECK(source->counters().foreign_packets == 1);
+  REQUIRE(source->warnings().size() == 1);
+  CHECK(source->warnings()[0].find("/lidar: message 1: byte ") != std::string::npos);
+}
+
+TEST_CASE("a cloud in millimetres is refused") {
+  const auto millimetres = points(4, 20, [](Octets& point, int i) {
+    put(point, 0, 1000.0f + static_cast<float>(i));
+    put(point, 14, static_cast<std::uint32_t>(i * 10'000'000));
+  });
+  CHECK(refusal_of(kOuster, millimetres).find("4 of its 4 hits are beyond 500 m: not metres?") !=
+        std::string::npos);
 }
 
 TEST_CASE("a driver that takes another field for the times, or another zero, is followed; with a word") {

@@ -53,6 +53,22 @@ TEST_CASE("Ouster packets of a bag of either storage give the sweeps of a pcap")
   }
 }
 
+TEST_CASE("Ouster packets with the spare byte of a driver's buffer are read all the same") {
+  TemporaryFolder folder;
+  const std::string meta = write_text(folder.path() + "/meta.json", OusterSensor{}.json());
+  TopicBag bag(kOusterType);
+  for (int column = 0; column < 16; column += 4) {
+    ByteVector packet = plain_packet({}, 1, column);
+    packet.push_back(0xAB);
+    bag.add(kNoon_ns + column, ouster_message(packet));
+  }
+  const auto source = open(bag.uri("&meta=" + meta));
+  const auto sweeps = all_sweeps(*source);
+  REQUIRE(sweeps.size() == 1);
+  CHECK(sweeps[0].complete);
+  CHECK(source->counters().foreign_packets == 0);
+}
+
 TEST_CASE("Velodyne scans give the sweeps of a pcap, with the packets' own stamps") {
   TemporaryFolder folder;
   PcapWriter pcap(folder.path() + "/a.pcap", 1, true);

@@ -163,6 +163,17 @@ TEST_CASE("recordings that never meet are guessed at if there is one way only in
   CHECK(guess_clock(span(10, 20), span(30, 40)) == std::string());
 }
 
+TEST_CASE("recordings of one drive that meet in part are guessed at by their begins and ends") {
+  const auto span = [](double first_s, double last_s) {
+    return TimeSpan{std::llround(first_s * 1e9), std::llround(last_s * 1e9)};
+  };
+  CHECK(guess_shift(span(1000, 1060), span(1037.4, 1096.8)) == std::string("that is TAI - UTC"));
+  CHECK(guess_shift(span(1018.2, 1078.1), span(1000, 1060)) == std::string("that is GPS - UTC"));
+  CHECK(guess_shift(span(1019.1, 1079.2), span(1000, 1060)) == std::string("that is TAI - GPS"));
+  CHECK(guess_shift(span(1000, 1060), span(1037, 1120)) == std::string());  // another drive, or a longer one
+  CHECK(guess_shift(span(1000, 1060), span(1005, 1060)) == std::string());  // localised late
+}
+
 TEST_CASE("whatever is late and however, the measured offset is off by no more than the least delays") {
   std::mt19937 random(3);
   std::exponential_distribution<double> delay_ms(1.0 / 30);

@@ -109,6 +109,24 @@ TEST_CASE("columns that are not valid or not in the window are counted") {
   CHECK(stream.counters().invalid_columns == 3);
 }
 
+TEST_CASE("a column whose time is damaged is not used, and the sweep keeps its own") {
+  for (const int damaged : {1, 2}) {
+    Stream stream{OusterSensor{}};
+    for (int column = 0; column < 16; column += 4) {
+      ByteVector packet = plain_packet({}, 1, column);
+      constexpr std::size_t kColumnBytes = 16 + 2 * 12 + 4;
+      if (column == 8)
+        packet.at(static_cast<std::size_t>(damaged) * kColumnBytes + 4) ^= 0x02;  // 8.6 s later
+      stream.raw(frame(packet));
+    }
+    const auto sweeps = stream.play(0.0);
+    REQUIRE(sweeps.size() == 1);
+    CHECK(sweeps[0].stamp_ns == OusterSensor{}.column_time_ns(1, 15));
+    CHECK(sweeps[0].returns.size() == 30);
+    CHECK(stream.counters().invalid_columns == 1);
+  }
+}
+
 TEST_CASE("whole turns and metadata of a slice: what is outside is not used, and told") {
   OusterSensor sensor;
   sensor.window = "[0, 9]";

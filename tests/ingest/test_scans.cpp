@@ -219,11 +219,42 @@ TEST_CASE("a PCD's points are as many as its header says, or it is told") {
   CHECK(read_error(path) == path + ": points of no bytes");
   write_text(path, "FIELDS x y z w\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 0 1\nWIDTH 1\nDATA ascii\n1 2 3\n");
   CHECK(read_error(path) == path + ": no floating-point fields x, y, z");
-  write(path, joined(fields + "POINTS 1\nDATA binary\n", ByteVector(36)));
-  const auto source = open("scans:" + path);
-  CHECK(all_sweeps(*source).at(0).returns.size() == 1);
-  REQUIRE_FALSE(source->warnings().empty());
-  CHECK(source->warnings().back() == path + ": holds 2 points more than its header says, which are left out");
+  write(path, joined(fields + "POINTS 1\nDATA binary\n", ByteVector(36, 0x40)));
+  for (int kind = 0; kind < 2; ++kind) {
+    const auto source = open("scans:" + path);
+    CHECK(all_sweeps(*source).at(0).returns.size() == 1);
+    REQUIRE_FALSE(source->warnings().empty());
+    CHECK(source->warnings().back() ==
+          path + ": holds 2 points more than its header says, which are left out");
+    write_text(path, fields + "POINTS 1\nDATA ascii\n1 2 3\n\n4 5 6\n7 8 9\n");
+  }
+}
+
+TEST_CASE("ascii PCD: a point is a line, so that one that lacks a number moves no other") {
+  TemporaryFolder folder;
+  const std::string path = folder.path() + "/a.pcd";
+  const auto error_of = [&](const std::string& rows) {
+    return read_error(write_text(path, header("x y z", "4 4 4", "F F F", 2, "ascii") + rows));
+  };
+  CHECK_THAT(error_of("1 2 3 0.5\n4 5 6 0.5\n"),
+             Catch::Contains("more than 3 numbers") && Catch::Contains("'0.5'"));
+  CHECK_THAT(error_of("1 2 3\n\n4 5\n6 7 8\n"), Catch::Contains(": line 13: z is ''"));
+  CHECK_THAT(error_of("1 2 3\n"),
+             Catch::Contains("holds 1 of its 2 points") || Catch::Contains("fewer points"));
+}
+
+TEST_CASE("a scan that is not in metres, or no sweep at all, is refused by name") {
+  TemporaryFolder folder;
+  const std::string path = folder.path() + "/a.pcd";
+  write_text(path, header("x y z", "4 4 4", "F F F", 2, "ascii") + "1200 900 -30\n-4000 70 2\n");
+  CHECK(read_error(path) == path + ": 2 of its 2 hits are beyond 500 m: not metres?");
+  write_text(path, header("x y z", "4 4 4", "F F F", 2, "ascii") + "nan nan nan\n0 0 0\n");
+  const auto empty = open("scans:" + path);
+  all_sweeps(*empty);
+  REQUIRE_FALSE(empty->warnings().empty());
+  CHECK_THAT(empty->warnings().back(), Catch::Contains("no hit in the whole scan"));
+  std::filesystem::resize_file(path, std::uintmax_t{1} << 40);
+  CHECK_THAT(read_error(path), Catch::StartsWith(path + ": its 1099511627776 bytes are no sweep's"));
 }
 
 TEST_CASE("compressed PCD: one array a field") {
@@ -231,7 +262,7 @@ TEST_CASE("compressed PCD: one array a field") {
   constexpr int kPoints = 100;
   ByteVector arrays;
   for (int axis = 0; axis < 3; ++axis) {
-    for (int i = 0; i < kPoints; ++i) put_le(arrays, static_cast<float>(axis * 1000 + i / 10));
+    for (int i = 0; i < kPoints; ++i) put_le(arrays, static_cast<float>(axis * 100 + i / 10));
   }
   ByteVector packed(arrays.size() + 100);
   packed.resize(lzf_compress(arrays.data(), static_cast<unsigned>(arrays.size()), packed.data(),
@@ -246,8 +277,8 @@ TEST_CASE("compressed PCD: one array a field") {
   const Sweep sweep = only_sweep(path);
   REQUIRE(sweep.returns.size() == kPoints);
   CHECK(sweep.returns[57].x_m == 5);
-  CHECK(sweep.returns[57].y_m == 1005);
-  CHECK(sweep.returns[57].z_m == 2005);
+  CHECK(sweep.returns[57].y_m == 105);
+  CHECK(sweep.returns[57].z_m == 205);
 
   body.resize(body.size() - 4);
   write(path, joined(head, body));
@@ -274,9 +305,8 @@ TEST_CASE("broken PCD files are refused, naming what is wrong") {
   CHECK(error_of(header("x y z", "4 4 3", "F F F", 0, "ascii")).find("field 'z'") != std::string::npos);
   CHECK(error_of(header("x y z", "4 4 4", "F F F", 2, "binary") + "0123").find("holds 0 of its 2 points") !=
         std::string::npos);
-  CHECK(
-      error_of(header("x y z", "4 4 4", "F F F", 1, "ascii") + "1 2 three\n").find("point 0: z is 'three'") !=
-      std::string::npos);
+  CHECK(error_of(header("x y z", "4 4 4", "F F F", 1, "ascii") + "1 2 three\n").find(": z is 'three'") !=
+        std::string::npos);
   CHECK(error_of(header("x y z", "4 4 4", "F F F", 1, "base64")).find("DATA base64 is not known") !=
         std::string::npos);
   CHECK(error_of(header("x y z t", "4 4 4 4", "F F F F", 1, "ascii") + "1 2 3 nan\n")

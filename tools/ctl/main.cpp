@@ -4,9 +4,11 @@
 #include <cstdio>
 #include <cstring>
 
+#include "services/bridge/ros2/open_sink.hpp"
 #include "services/bridge/settings.hpp"
 #include "services/common/config_concerns.hpp"
 #include "services/common/log.hpp"
+#include "services/ingest/source_check.hpp"
 #include "tools/common/broker_user.hpp"
 #include "tools/ctl/commands.hpp"
 #include "tools/ctl/vehicle.hpp"
@@ -105,6 +107,17 @@ tl::expected<services::VehicleConfig, services::ConfigError> load(const std::str
   auto config = services::load_vehicle_config(path, sets);
   if (!config) return config;
   if (auto names = bridge::check_names(*config); !names) return tl::unexpected(names.error());
+  if (auto ros2 = bridge::check_ros2(*config); !ros2) return tl::unexpected(ros2.error());
+  return config;
+}
+
+/// And as its lidars' processes would: by the file alone.
+tl::expected<services::VehicleConfig, services::ConfigError> load_to_run(
+    const std::string& path, const std::vector<std::string>& sets) {
+  auto config = load(path, sets);
+  if (!config) return config;
+  for (const auto& lidar : config->lidars)
+    if (auto given = ingest::check_given(*config, lidar); !given) return tl::unexpected(given.error());
   return config;
 }
 
@@ -120,13 +133,13 @@ int reload(const Options& options) {
   }
   services::Lifecycle lifecycle;
   const std::string path = options.config.empty() ? ctl::kInstalledVehicle : options.config;
-  const auto config = load(path, options.sets);
+  ctl::Units units;
+  if (!tools::become_broker_user()) return say_not_the_broker_user();  // who has to be able to read the file
+  const auto config = load_to_run(path, options.sets);
   if (!config) {
     std::fprintf(stderr, "%s; nothing was changed\n", config.error().text().c_str());
     return to_int(ExitCode::configuration);
   }
-  ctl::Units units;
-  if (!tools::become_broker_user()) return say_not_the_broker_user();
   return ctl::show_reload(*config, units, lifecycle, options.dry_run);
 }
 

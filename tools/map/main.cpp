@@ -85,6 +85,7 @@ void say_losses(const gvom::tools::OfflineMapper& mapper, const gvom::services::
     auto lines = gvom::ingest::explain(counters, *gvom::services::find_lidar(config, lidar.name).value());
     for (std::string& line : gvom::ingest::explain(lidar.losses, mapper.odometry()))
       lines.push_back(std::move(line));
+    for (std::string& line : gvom::tools::explain(lidar.refused)) lines.push_back(std::move(line));
     for (const std::string& line : lines) spdlog::warn("lidar {}: {}", lidar.name, line);
   }
 }

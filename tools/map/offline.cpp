@@ -25,6 +25,20 @@ tl::unexpected<OfflineError> unavailable(std::string what) {
 
 }  // namespace
 
+std::vector<std::string> explain(const RefusedMaps& refused) {
+  std::vector<std::string> lines;
+  const auto add = [&](std::uint64_t count, const char* why) {
+    if (count > 0) lines.push_back(std::to_string(count) + " sweeps not mapped: " + why);
+  };
+  add(refused.duplicate, "there is a map of that time already (does the recording repeat itself?)");
+  add(refused.too_old,
+      "later ones had been mapped by then, and the window reaches no farther back (window.max_age_s; do "
+      "times go "
+      "back, or do the lidars' clocks differ?)");
+  add(refused.before_jump, "from before a jump of the odometry, and the map had begun anew");
+  return lines;
+}
+
 OfflineExpected<OfflineMapper> OfflineMapper::open(const services::VehicleConfig& config,
                                                    const std::string& odometry, bool deskew) {
   OfflineMapper mapper;
@@ -117,7 +131,7 @@ OfflineExpected<bool> OfflineMapper::map_sweep(std::size_t index, MappedSweep& m
   }
   const auto shape = lidar.mapper->count(lidar.sweep, odometry_->poses());
   if (!shape) return unavailable(shape.error().what);
-  lidar.losses.count_placed();
+  lidar.losses.count_placed(lidar.sweep.stamp_ns);
   auto map = std::make_unique<BrickMapStorage>();
   if (const auto written = lidar.mapper->write(map->resize(*shape)); !written)
     return unavailable(written.error().what);
@@ -130,14 +144,14 @@ OfflineExpected<bool> OfflineMapper::map_sweep(std::size_t index, MappedSweep& m
 
 // As gvom-fusion does: after a jump the window begins anew.
 OfflineExpected<bool> OfflineMapper::fuse(std::size_t index, std::unique_ptr<BrickMapStorage> map) {
-  const Lidar& lidar = lidars_[index];
+  Lidar& lidar = lidars_[index];
   const std::int64_t stamp_ns = lidar.sweep.stamp_ns;
   if (const std::int64_t jump_ns = odometry_->poses().jump_before(stamp_ns); jump_ns > jump_ns_) {
     jump_ns_ = jump_ns;
     fuser_->reset();
     window_.clear();
   }
-  if (jump_ns_ != 0 && stamp_ns < jump_ns_) return ++refused_, false;
+  if (jump_ns_ != 0 && stamp_ns < jump_ns_) return ++lidar.refused.before_jump, false;
   const std::uint64_t token = next_token_++;
   const BrickMapView view = map->view(lidar.mapper->grid(), stamp_ns, lidar.mapper->T_odom_base());
   window_.emplace(token, std::move(map));
@@ -145,7 +159,8 @@ OfflineExpected<bool> OfflineMapper::fuse(std::size_t index, std::unique_ptr<Bri
   if (!result) return unavailable(result.error().what);
   if (*result != AddResult::added) {
     window_.erase(token);
-    return ++refused_, false;
+    ++(*result == AddResult::duplicate ? lidar.refused.duplicate : lidar.refused.too_old);
+    return false;
   }
   for (const WindowMap& left : fuser_->window().left()) window_.erase(left.token);
   return true;
@@ -157,18 +172,32 @@ std::uint64_t OfflineMapper::sweeps_without_odometry() const {
   return sum;
 }
 
+std::uint64_t OfflineMapper::maps_refused() const {
+  std::uint64_t sum = 0;
+  for (const Lidar& lidar : lidars_) sum += lidar.refused.all();
+  return sum;
+}
+
+/// Who has the oldest sweep. One that is after all odometry is never mapped, and holds nobody back.
+std::optional<std::size_t> OfflineMapper::whose_turn() const {
+  std::optional<std::size_t> first;
+  for (std::size_t i = 0; i < lidars_.size(); ++i) {
+    const std::int64_t stamp_ns = lidars_[i].sweep.stamp_ns;
+    if (lidars_[i].ended) continue;
+    if (odometry_->span() && stamp_ns > odometry_->span()->last_ns) return i;
+    if (!first || stamp_ns < lidars_[*first].sweep.stamp_ns) first = i;
+  }
+  return first;
+}
+
 OfflineExpected<bool> OfflineMapper::next(MappedSweep& mapped) {
   for (;;) {
     if (error_) return tl::unexpected(*std::exchange(error_, std::nullopt));
-    std::size_t first = lidars_.size();
-    for (std::size_t i = 0; i < lidars_.size(); ++i) {
-      if (lidars_[i].ended) continue;
-      if (first == lidars_.size() || lidars_[i].sweep.stamp_ns < lidars_[first].sweep.stamp_ns) first = i;
-    }
-    if (first == lidars_.size()) return false;
-    const auto fused = map_sweep(first, mapped);
+    const auto turn = whose_turn();
+    if (!turn) return false;
+    const auto fused = map_sweep(*turn, mapped);
     if (!fused) return fused;
-    if (auto advanced = advance(lidars_[first]); !advanced) error_ = advanced.error();
+    if (auto advanced = advance(lidars_[*turn]); !advanced) error_ = advanced.error();
     if (*fused) return true;
   }
 }

@@ -44,6 +44,18 @@ struct BackendWords {
   std::string details;
 };
 
+/// Maps of sweeps that the odometry had placed, and that the fused map did not take.
+struct RefusedMaps {
+  std::uint64_t too_old = 0;
+  std::uint64_t duplicate = 0;
+  std::uint64_t before_jump = 0;
+
+  [[nodiscard]] std::uint64_t all() const { return too_old + duplicate + before_jump; }
+};
+
+/// A line for each reason.
+std::vector<std::string> explain(const RefusedMaps& refused);
+
 class OfflineMapper {
  public:
   /// Opens the source of every lidar that has one, and the back ends that the configuration asks for.
@@ -69,7 +81,7 @@ class OfflineMapper {
   [[nodiscard]] const BackendWords& fusion_backend() const { return fusion_backend_; }
   [[nodiscard]] const ingest::OdometryIntake& odometry() const { return *odometry_; }
   [[nodiscard]] std::uint64_t sweeps_without_odometry() const;  ///< Of all lidars.
-  [[nodiscard]] std::uint64_t maps_refused() const { return refused_; }
+  [[nodiscard]] std::uint64_t maps_refused() const;             ///< Likewise.
 
   struct Lidar {
     std::string name;
@@ -79,11 +91,13 @@ class OfflineMapper {
     Sweep sweep;  // the next one
     bool ended = false;
     ingest::SweepLosses losses;  // of sweeps that the odometry could not place; explain() has the words
+    RefusedMaps refused;
     std::unique_ptr<ingest::GroundCheck> ground;
   };
   [[nodiscard]] const std::vector<Lidar>& lidars() const { return lidars_; }
 
  private:
+  [[nodiscard]] std::optional<std::size_t> whose_turn() const;
   OfflineExpected<void> add_odometry(services::OdometryConfig config, const std::string& odometry);
   OfflineExpected<void> add_fusion(const services::VehicleConfig& config);
   OfflineExpected<void> add_lidar(const services::VehicleConfig& config, const services::LidarConfig& lidar);
@@ -99,8 +113,7 @@ class OfflineMapper {
   BackendWords fusion_backend_;
   bool deskew_ = true;
   std::uint64_t next_token_ = 0;
-  std::int64_t jump_ns_ = 0;  // the map began anew with the first sweep after it
-  std::uint64_t refused_ = 0;
+  std::int64_t jump_ns_ = 0;           // the map began anew with the first sweep after it
   std::optional<OfflineError> error_;  // found while a sweep was read ahead; told after those before it
 };
 
