@@ -15,6 +15,7 @@ import { Scene } from './view/scene.js';
 const TICK_MS = 100;
 const HEALTH_TICKS = 10;
 const PHONE_PX = 820;
+const BLIND = 'This browser has no WebGL 2: nothing is drawn.';
 const COLOURS = {
   dark: { background: '#14181c', no_value: '#5b6066', plan: '#ffffff' },
   light: { background: '#e9eaec', no_value: '#9aa0a6', plan: '#14181c' },
@@ -78,9 +79,9 @@ function tick_age(now_s) {
   }
   find('past').hidden = true;
   show_age(worth, age_s, feed.age.rate_hz(now_s));
-  if (worth === 'fresh' && scene.is_blind) show_notice('This browser cannot draw the map', 'It has no WebGL 2. Ages and health are as they are.');
+  if (worth === 'fresh' && scene.is_blind) show_notice('No map can be drawn', `${BLIND} Ages and health are as they are.`);
   else if (worth === 'fresh') show_notice('', '');
-  else show_notice(title_of(worth, age_s), reason_of(feed.circumstances(now_s)));
+  else show_notice(title_of(worth, age_s), `${reason_of(feed.circumstances(now_s))}${scene.is_blind ? ` ${BLIND}` : ''}`);
 }
 
 let ticks = 0;

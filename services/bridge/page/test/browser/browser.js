@@ -27,5 +27,5 @@ export async function open(browser, url, theme, size) {
 
 /** Waits until the page's own words for its map are one of these. */
 export function until_map(page, ...worth) {
-  return page.waitForFunction((wanted) => wanted.includes(document.body.dataset.map), { timeout: 30000, polling: 100 }, worth);
+  return page.waitForFunction((wanted) => wanted.includes(document.body.dataset.map), { timeout: 60000, polling: 100 }, worth);
 }

@@ -14,14 +14,14 @@ const text = (page, selector) => page.$eval(selector, (node) => node.innerText);
 const topics = (bridge) => [...bridge.clients].flatMap((client) => [...client.topics.keys()]).sort();
 
 async function until(holds) {
-  for (const end_ms = Date.now() + 30000; Date.now() < end_ms;) {
+  for (const end_ms = Date.now() + 60000; Date.now() < end_ms;) {
     if (await holds()) return;
     await new Promise((resolve) => { setTimeout(resolve, 50); });
   }
-  assert.fail(`not in 30 s: ${holds}`);
+  assert.fail(`not in 60 s: ${holds}`);
 }
 
-test('the page in Chromium', { skip: lacks, timeout: 170000 }, async (t) => {
+test('the page in Chromium', { skip: lacks, timeout: 280000 }, async (t) => {
   const bridge = new MockBridge(dist, { start_s: 7, step_s: 0.2 });
   const port = await bridge.listen();
   const browser = await launch();
@@ -94,19 +94,25 @@ test('the page in Chromium', { skip: lacks, timeout: 170000 }, async (t) => {
     const watch = setInterval(() => {
       for (const { waiting } of bridge.clients) most_waiting.now = Math.max(most_waiting.now, waiting.size);
     }, 20);
-    const said = await page.evaluate(() => new Promise((resolve) => {
+    const { before, after } = await page.evaluate(() => new Promise((resolve) => {
       const { feed } = window.gvom;
       const show = feed.on_map;
+      const look = () => ({
+        age_s: feed.age.age_s(performance.now() / 1000), stamp_s: feed.age.arrivals.at(-1).stamp_s, wall_s: Date.now() / 1000,
+      });
       feed.on_map = () => {
-        feed.on_map = show;
-        resolve({ age_s: feed.age.age_s(performance.now() / 1000), stamp_s: feed.age.arrivals.at(-1).stamp_s, wall_s: Date.now() / 1000 });
+        const before = look();
+        feed.on_map = () => {
+          feed.on_map = show;
+          resolve({ before, after: look() });
+        };
+        for (const end_ms = performance.now() + 2500; performance.now() < end_ms;);
       };
-      for (const end_ms = performance.now() + 2500; performance.now() < end_ms;);
     }));
     clearInterval(watch);
-    const made_s = said.stamp_s - 1000 + bridge.started_wall_s;
-    const true_s = said.wall_s - made_s;
-    assert.ok(said.age_s > true_s - 0.5, `the first map after it is said to be ${said.age_s} s old, and is ${true_s} s`);
+    // How far the page is behind all the time, on a machine that is too slow for it, nobody tells it.
+    const untold_s = ({ age_s, stamp_s, wall_s }) => wall_s - (stamp_s - 1000 + bridge.started_wall_s) - age_s;
+    assert.ok(untold_s(after) < untold_s(before) + 0.5, `the first map after it is ${untold_s(after)} s older than it is said to be, the one before ${untold_s(before)} s`);
     assert.ok(most_waiting.now <= 6, `${most_waiting.now} messages waited`);
     await until_map(page, 'fresh');
   });
