@@ -87,6 +87,30 @@ TEST_CASE("a bag's maps are those of the same packets in a pcap, to the byte") {
   CHECK(fs::exists(path + "/pictures/cost.png"));
 }
 
+TEST_CASE("sweeps of a recording that repeats itself are not mapped again, and it is said why") {
+  TemporaryFolder folder;
+  const std::string& path = folder.path();
+  record(path);
+  constexpr std::size_t kPcapHeader = 24;
+  const std::string pcap = read_file(path + "/front.pcap");
+  std::ofstream(path + "/front.pcap", std::ios::binary | std::ios::app) << pcap.substr(kPcapHeader);
+  auto config = one_lidar();
+  config.lidars[0].source = "ouster:" + path + "/front.pcap?meta=" + path + "/front.json";
+  auto mapper = tools::OfflineMapper::open(config, "tum:" + path + "/odometry.tum");
+  REQUIRE(mapper.has_value());
+  tools::MappedSweep sweep;
+  std::uint64_t maps = 0;
+  while (mapper->next(sweep).value()) ++maps;
+  const tools::RefusedMaps& refused = mapper->lidars()[0].refused;
+  CHECK(maps >= 3);
+  CHECK(refused.all() == refused.duplicate);
+  CHECK(refused.duplicate >= 3);
+  const auto lines = tools::explain(refused);
+  REQUIRE(lines.size() == 1);
+  CHECK(lines[0].find(std::to_string(refused.duplicate) +
+                      " sweeps not mapped: there is a map of that time already") == 0);
+}
+
 TEST_CASE("--bag fills the sources that leave it open, and no others") {
   services::VehicleConfig config;
   config.lidars.resize(3);
