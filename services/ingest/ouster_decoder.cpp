@@ -127,19 +127,6 @@ void OusterDecoder::reset() {
   any_frame_ = open_ = false;
 }
 
-/// The frame of a packet; nothing if it holds no valid column to tell it.
-std::optional<std::uint16_t> OusterDecoder::frame_of(const std::uint8_t* packet) const {
-  const OusterLayout& layout = metadata_.layout;
-  if (layout.header != OusterHeader::none) return ouster_frame(layout, packet);
-  // A column that is not valid may hold anything, so the first valid one tells.
-  for (int i = 0; i < metadata_.columns_per_packet; ++i) {
-    const auto column =
-        read_ouster_column(layout, packet + i * layout.column_size(metadata_.beams()), metadata_.beams());
-    if (column.valid) return column.frame_id;
-  }
-  return std::nullopt;
-}
-
 OusterDecoder::Belongs OusterDecoder::classify(std::uint16_t frame) const {
   if (!any_frame_) return Belongs::next_frame;
   const auto ahead = static_cast<std::int16_t>(static_cast<std::uint16_t>(frame - frame_));
@@ -174,7 +161,7 @@ bool OusterDecoder::count_stray(Belongs belongs, const std::uint8_t* packet) {
 
 bool OusterDecoder::decode(const Packet& packet, Sweep& out) {
   packet_time_ns_.reset();
-  const auto frame = frame_of(packet.data);
+  const auto frame = frame_of(metadata_, packet.data);
   if (!frame) {
     state_.counters.invalid_columns += static_cast<std::uint64_t>(metadata_.columns_per_packet);
     return false;

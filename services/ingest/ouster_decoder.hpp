@@ -40,7 +40,6 @@ class OusterDecoder final : public Decoder {
 
   /// A frame begins with this packet.
   void watch_turn(const std::uint8_t* packet, std::uint16_t frame, bool follows);
-  [[nodiscard]] std::optional<std::uint16_t> frame_of(const std::uint8_t* packet) const;
   [[nodiscard]] Belongs classify(std::uint16_t frame) const;
   [[nodiscard]] bool is_repeated(const std::uint8_t* packet) const;
   bool count_stray(Belongs belongs, const std::uint8_t* packet);

@@ -22,18 +22,24 @@ bool is_in_window(const OusterMetadata& metadata, int column) {
   return column < metadata.columns_per_frame && (column >= first || column <= last);
 }
 
-/// The packet's first and last valid column.
-std::optional<Columns> valid_columns(const OusterMetadata& metadata, const std::uint8_t* packet) {
-  std::optional<Columns> found;
+template <typename Visit>
+void for_each_valid(const OusterMetadata& metadata, const std::uint8_t* packet, Visit visit) {
   const std::uint8_t* bytes = packet + metadata.layout.packet_header;
   for (int i = 0; i < metadata.columns_per_packet; ++i) {
     const OusterColumn column = read_ouster_column(metadata.layout, bytes, metadata.beams());
     bytes += metadata.layout.column_size(metadata.beams());
-    if (!column.valid) continue;
+    if (column.valid) visit(column);
+  }
+}
+
+/// The packet's first and last valid column.
+std::optional<Columns> valid_columns(const OusterMetadata& metadata, const std::uint8_t* packet) {
+  std::optional<Columns> found;
+  for_each_valid(metadata, packet, [&](const OusterColumn& column) {
     if (!found) found = Columns{column, column, false};
     found->last = column;
     found->any_in_window = found->any_in_window || is_in_window(metadata, column.measurement_id);
-  }
+  });
   return found;
 }
 
@@ -72,15 +78,18 @@ bool is_of_other_mode(const OusterMetadata& metadata, const std::uint8_t* packet
   return differs(column_us, expected_us);
 }
 
+std::optional<std::uint16_t> frame_of(const OusterMetadata& metadata, const std::uint8_t* packet) {
+  if (metadata.layout.header != OusterHeader::none) return ouster_frame(metadata.layout, packet);
+  // A column that is not valid may hold anything, so the first valid one tells.
+  const auto found = valid_columns(metadata, packet);
+  return found ? std::optional(found->first.frame_id) : std::nullopt;
+}
+
 std::uint64_t middle_time_ns(const OusterMetadata& metadata, const std::uint8_t* packet,
                              std::vector<std::uint64_t>& scratch) {
   scratch.clear();
-  const std::uint8_t* bytes = packet + metadata.layout.packet_header;
-  for (int i = 0; i < metadata.columns_per_packet; ++i) {
-    const OusterColumn column = read_ouster_column(metadata.layout, bytes, metadata.beams());
-    if (column.valid) scratch.push_back(column.timestamp_ns);
-    bytes += metadata.layout.column_size(metadata.beams());
-  }
+  for_each_valid(metadata, packet,
+                 [&](const OusterColumn& column) { scratch.push_back(column.timestamp_ns); });
   if (scratch.empty()) return 0;
   const auto middle = scratch.begin() + static_cast<std::ptrdiff_t>(scratch.size() / 2);
   std::nth_element(scratch.begin(), middle, scratch.end());
