@@ -9,6 +9,7 @@
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
 
+#include "services/bridge/address.hpp"
 #include "services/bridge/web_visitor.hpp"
 
 namespace gvom::bridge {
@@ -133,11 +134,10 @@ class FoxgloveServer::State {
 };
 
 tl::expected<std::unique_ptr<FoxgloveServer>, std::string> FoxgloveServer::start(FoxgloveOptions options) {
-  Fault fault;
-  const auto address = asio::ip::make_address(options.address, fault);
-  if (fault) return tl::unexpected("'" + options.address + "' is no IP address");
+  const auto address = parse_address(options.address);
+  if (!address) return tl::unexpected(address.error());
   return std::unique_ptr<FoxgloveServer>(
-      new FoxgloveServer(std::make_unique<State>(std::move(options), address)));
+      new FoxgloveServer(std::make_unique<State>(std::move(options), *address)));
 }
 
 FoxgloveServer::FoxgloveServer(std::unique_ptr<State> state) : state_(std::move(state)) {}

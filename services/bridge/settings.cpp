@@ -1,8 +1,9 @@
 #include "services/bridge/settings.hpp"
 
 #include <algorithm>
-#include <boost/asio/ip/address.hpp>
 #include <optional>
+
+#include "services/bridge/address.hpp"
 
 namespace gvom::bridge {
 namespace {
@@ -40,11 +41,10 @@ tl::expected<void, ConfigError> check_frame(const services::VehicleConfig& confi
 
 tl::expected<void, ConfigError> check_address(const services::VehicleConfig& config) {
   const std::string& address = config.bridge.foxglove.address;
-  boost::system::error_code fault;
-  if (!address.empty()) boost::asio::ip::make_address(address, fault);
-  if (!fault) return {};
-  return tl::make_unexpected(
-      ConfigError{config.path, "bridge.foxglove.address", "'" + address + "' is no IP address"});
+  if (address.empty()) return {};
+  const auto parsed = parse_address(address);
+  if (parsed) return {};
+  return tl::make_unexpected(ConfigError{config.path, "bridge.foxglove.address", parsed.error()});
 }
 
 tl::expected<std::set<TopicId>, ConfigError> topics_of(const services::VehicleConfig& config,

@@ -33,8 +33,7 @@ std::vector<std::string> explain(const RefusedMaps& refused) {
   add(refused.duplicate, "there is a map of that time already (does the recording repeat itself?)");
   add(refused.too_old,
       "later ones had been mapped by then, and the window reaches no farther back (window.max_age_s; do "
-      "times go "
-      "back, or do the lidars' clocks differ?)");
+      "times go back, or do the lidars' clocks differ?)");
   add(refused.before_jump, "from before a jump of the odometry, and the map had begun anew");
   return lines;
 }
