@@ -40,6 +40,7 @@ tl::expected<bridge::Sinks, ConfigError> open_sinks(const services::VehicleConfi
     bridge::RecorderOptions options;
     options.folder = config.bridge.mcap.folder;
     options.split_bytes = static_cast<std::uint64_t>(config.bridge.mcap.split_mb) * 1'000'000;
+    options.min_free_bytes = static_cast<std::uint64_t>(config.bridge.mcap.min_free_mb) * 1'000'000;
     options.topics = std::move(*topics);
     sinks.push_back(std::make_unique<bridge::McapRecorder>(std::move(options)));
   }

@@ -1,5 +1,6 @@
 #include "services/bridge/mcap_recorder.hpp"
 
+#include <spdlog/fmt/fmt.h>
 #include <chrono>
 #include <ctime>
 #include <filesystem>
@@ -32,6 +33,7 @@ McapRecorder::McapRecorder(RecorderOptions options)
   std::error_code error;
   std::filesystem::create_directories(options_.folder, error);
   if (error) problem_ = options_.folder + ": " + error.message() + " (bridge.mcap.folder)";
+  leave_room();
   thread_ = std::thread([this] { record(); });
 }
 
@@ -100,6 +102,15 @@ void McapRecorder::write(const Waiting& waiting) {
   if (written) counters_.bytes += waiting.message->size();
 }
 
+/// Once a second: less than that is written in between by far.
+void McapRecorder::leave_room() {
+  std::error_code error;  // a folder that is gone is told by who writes into it
+  const std::filesystem::space_info space = std::filesystem::space(options_.folder, error);
+  if (error || space.available >= options_.min_free_bytes) return;
+  fail(fmt::format("{}: {} MB of the disk are free, {} MB are left to others (bridge.mcap.min_free_mb)",
+                   options_.folder, space.available / 1'000'000, options_.min_free_bytes / 1'000'000));
+}
+
 void McapRecorder::record() {
   auto flushed = std::chrono::steady_clock::now();
   for (bool more = true; more;) {
@@ -110,6 +121,7 @@ void McapRecorder::record() {
     if (now - flushed < std::chrono::seconds(1)) continue;
     flushed = now;
     if (const auto done = writer_.flush(); !done) fail(done.error());
+    leave_room();
   }
   if (const auto closed = writer_.close(); !closed) fail(closed.error());
 }

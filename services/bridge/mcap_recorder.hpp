@@ -18,14 +18,16 @@ namespace gvom::bridge {
 struct RecorderOptions {
   std::string folder;  ///< Made if it is not there.
   std::uint64_t split_bytes = 1ULL << 30;
+  std::uint64_t min_free_bytes = 0;  ///< Of the disk, for everybody else; the recording ends before it.
   std::set<TopicId> topics;
   std::size_t most_waiting_bytes = 64U << 20;  ///< For a disk that is slow; more is dropped and counted.
 };
 
 /// Files are `FOLDER/gvom-DATE_000.mcap` and on, DATE of the start in UTC. A thread of its own packs and
-/// writes; what was recorded until a second ago is in the file if the process is killed. A full disk ends the
-/// recording, and problem() says so; what was written stays readable. What is said before the first data has
-/// no time (stamp 0) and is not recorded: the file would begin in 1970.
+/// writes; what was recorded until a second ago is in the file if the process is killed. A disk that is full,
+/// or has less than min_free_bytes, ends the recording, and problem() says so; what was written stays
+/// readable. What is said before the first data has no time (stamp 0) and is not recorded: the file would
+/// begin in 1970.
 class McapRecorder : public Sink {
  public:
   explicit McapRecorder(RecorderOptions options);
@@ -49,6 +51,7 @@ class McapRecorder : public Sink {
   bool take(std::deque<Waiting>& into);
   void write(const Waiting& waiting);
   void fail(const std::string& why);
+  void leave_room();
 
   const RecorderOptions options_;
   mcap::SplitWriter writer_;

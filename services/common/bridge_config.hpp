@@ -19,6 +19,8 @@ struct FoxgloveConfig {
 struct McapConfig {
   std::string folder;   ///< Where files go; empty: nothing is recorded.
   int split_mb = 1024;  ///< A new file at this size, 1 .. 1048576.
+  /// The recording ends rather than leave less than this on the disk to the others, 0 .. 1048576.
+  int min_free_mb = 1024;
   /// Which are recorded, between commas. /gvom/status is not: it is JSON, and ros2 bag opens no file with it.
   std::string topics = "/gvom/costmap,/gvom/layers,/gvom/voxels,/tf,/gvom/plan,/gvom/trajectory,/diagnostics";
 };

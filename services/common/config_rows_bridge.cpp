@@ -44,6 +44,9 @@ std::vector<VehicleRow> bridge_rows() {
        [](V& c) -> Field { return &c.bridge.mcap.folder; }},
       {{"bridge.mcap.split_mb", "MB", Rule::range, 1, 1048576, kOptional, "a new file at this size"},
        [](V& c) -> Field { return &c.bridge.mcap.split_mb; }},
+      {{"bridge.mcap.min_free_mb", "MB", Rule::range, 0, 1048576, kOptional,
+        "the recording ends rather than leave less of the disk to the others"},
+       [](V& c) -> Field { return &c.bridge.mcap.min_free_mb; }},
       {{"bridge.mcap.topics", "", Rule::text, 0, 0, kOptional, "that are recorded, between commas"},
        [](V& c) -> Field { return &c.bridge.mcap.topics; }},
 

@@ -1,4 +1,7 @@
 // The recorder: what it is offered is in its files; a folder that cannot be written is told.
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
 #include <set>
 
@@ -103,6 +106,24 @@ TEST_CASE("a file that cannot be written ends the recording, in words") {
   CHECK(!recorder.wants(bridge::topic(TopicId::layers)));
   recorder.offer(bridge::topic(TopicId::layers), 1, blob(1, 0));
   CHECK(recorder.counters().dropped == 1);
+}
+
+TEST_CASE("the recording ends before the disk is full, and says so") {
+  const test::TemporaryFolder folder;
+  bridge::RecorderOptions options;
+  options.folder = folder.path();
+  options.topics = {TopicId::layers};
+  options.min_free_bytes = std::filesystem::space(options.folder).available - 100'000'000;
+  McapRecorder recorder(options);
+  CHECK(recorder.wants(bridge::topic(TopicId::layers)));
+  const int others = ::open((folder.path() + "/others").c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0600);
+  REQUIRE(::posix_fallocate(others, 0, 300'000'000) == 0);
+  CHECK(::close(others) == 0);
+  REQUIRE(test::eventually([&] { return !recorder.problem().empty(); }));
+  CHECK_THAT(recorder.problem(),
+             Catch::Contains(folder.path()) && Catch::Contains("bridge.mcap.min_free_mb"));
+  CHECK(!recorder.wants(bridge::topic(TopicId::layers)));
+  CHECK_THAT(McapRecorder(options).problem(), Catch::Contains("bridge.mcap.min_free_mb"));  // from the start
 }
 
 TEST_CASE("a folder that is taken away ends the recording when the next file is made") {

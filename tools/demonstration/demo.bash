@@ -23,7 +23,7 @@ build() {  # build TARGET...
 start_bridge() {
   recorded=''
   if [[ -z $looped ]]; then recorded=$(mktemp -d "$out/mcap.XXXXXX"); fi
-  start gvom-bridge nice -n 10 "$bin/gvom-bridge" "${config[@]}" --set "bridge.mcap.folder='$recorded'" --set bridge.mcap.split_mb=1048576
+  start gvom-bridge nice -n 10 "$bin/gvom-bridge" "${config[@]}" --set "bridge.mcap.folder='$recorded'" --set bridge.mcap.split_mb=1048576 --set bridge.mcap.min_free_mb=0
   echo "demo: to watch it: $page (Foxglove: ws://127.0.0.1:8765)"
 }
 
