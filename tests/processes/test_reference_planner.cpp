@@ -20,12 +20,19 @@ namespace {
 
 /// A broker, the flat world and the planner.
 struct Rig {
+  explicit Rig(const std::vector<std::string>& sets = {}) : graph(vehicle(sets)) {}
+
   TemporaryFolder folder;
-  Graph graph{front_only(folder.path())};
+  Graph graph;
   Observer observer{folder.path()};
   FlatWorld world{services::load_vehicle_config(graph.vehicle().file, graph.vehicle().sets).value()};
   std::unique_ptr<Program> planner = start();
 
+  [[nodiscard]] Vehicle vehicle(const std::vector<std::string>& sets) const {
+    Vehicle made = front_only(folder.path());
+    made.sets.insert(made.sets.end(), sets.begin(), sets.end());
+    return made;
+  }
   std::unique_ptr<Program> start(const std::vector<std::string>& more = {}) {
     return graph.start("gvom-planner", more);
   }
@@ -94,6 +101,15 @@ TEST_CASE("it stops, says why, and goes on: without layers, without odometry, wi
   rig.world.lose_front(false);
   CHECK(rig.drives());
   CHECK(rig.world.deadlines_passed() == 0);  // commands to stand still came all the time
+  CHECK(rig.planner->stop() == 0);
+  rig.end();
+}
+
+TEST_CASE("it stops where its own cycle takes too long") {
+  Rig rig({"map.size_xy=1024", "map.size_z=8", "planner.rate_hz=100"});  // a hundred times a second
+  REQUIRE(rig.world.is_up());
+  rig.world.send_course(1000, 0);
+  CHECK(rig.says("the last cycle took"));
   CHECK(rig.planner->stop() == 0);
   rig.end();
 }
