@@ -106,7 +106,8 @@ TEST_CASE("it stops, says why, and goes on: without layers, without odometry, wi
 }
 
 TEST_CASE("it stops where its own cycle takes too long") {
-  Rig rig({"map.size_xy=1024", "map.size_z=8", "planner.rate_hz=100"});  // a hundred times a second
+  Rig rig({"map.size_xy=1024", "map.size_z=8",
+           "planner.rate_hz=100"});  // more columns than can be planned over in 10 ms
   REQUIRE(rig.world.is_up());
   rig.world.send_course(1000, 0);
   CHECK(rig.says("the last cycle took"));
