@@ -1,6 +1,8 @@
 // gvom-bridge: what is on the bus, for ROS 2, Foxglove, browsers and files.
 #include <spdlog/spdlog.h>
 
+#include <chrono>
+
 #include "services/bridge/bridge_node.hpp"
 #include "services/bridge/foxglove_server.hpp"
 #include "services/bridge/mcap_recorder.hpp"
@@ -18,6 +20,8 @@ using services::ConfigError;
 using services::ExitCode;
 
 constexpr const char* kName = "gvom-bridge";
+/// It finishes the file that it records.
+constexpr std::chrono::seconds kLeaveWithin{4};
 
 /// The sinks that the configuration asks for.
 tl::expected<bridge::Sinks, ConfigError> open_sinks(const services::VehicleConfig& config) {
@@ -79,7 +83,7 @@ ExitCode run(const services::VehicleConfig& config, services::Lifecycle& lifecyc
 }  // namespace
 
 int main(int argc, char** argv) {
-  services::Lifecycle lifecycle(services::kLeaveWithin);
+  services::Lifecycle lifecycle(kLeaveWithin);
   services::Cli cli(
       kName, "Sends maps, plans and Health to ROS 2, Foxglove and browsers, and records them as MCAP.");
   cli.also_check(check);

@@ -57,7 +57,7 @@ void Lifecycle::take_signals() {
 }
 
 bool Lifecycle::stop_asked() const {
-  constexpr auto kTakesSignal = std::chrono::milliseconds(20);  // pending no more, and not known yet
+  constexpr auto kTakesSignal = std::chrono::milliseconds(200);  // pending no more, and not known yet
   const auto is_pending = [] {
     sigset_t pending;
     return sigpending(&pending) == 0 &&

@@ -13,7 +13,8 @@
 
 namespace gvom::services {
 
-/// How long a service on the bus may take to leave it. The units allow a second more.
+/// How long a service on the bus may take to leave it, if it has no files to finish. The units allow a second
+/// more.
 inline constexpr std::chrono::milliseconds kLeaveWithin{1000};
 
 /// Takes SIGINT and SIGTERM in a thread of its own; no other thread is ever interrupted (more than five
@@ -32,8 +33,8 @@ class Lifecycle {
 
   [[nodiscard]] bool stopping() const { return stopping_.load(std::memory_order_relaxed); }
 
-  /// For an end that nobody planned: also true of a signal that no thread has taken yet. Takes 20 ms to say
-  /// no.
+  /// For an end that nobody planned: also true of a signal that no thread has taken yet. Takes 200 ms to say
+  /// no: on a busy machine that thread may wait for the processor.
   [[nodiscard]] bool stop_asked() const;
 
   /// `callback` runs once, in the signal thread, when a stop is asked for (at once if it was already): wakes
