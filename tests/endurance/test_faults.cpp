@@ -21,7 +21,7 @@ struct Patient {
   bool modes_well = true;
 
   std::vector<FaultResult> run(std::uint32_t seed, double for_s) {
-    Faults faults(seed, 5, {"front", "rear"}, board,
+    Faults faults(seed, 5, kRecovery_s, {"front", "rear"}, board,
                   {[this](const std::string& process, int signal) {
                      signals.push_back(process + " " + std::to_string(signal));
                      return true;

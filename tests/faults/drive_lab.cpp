@@ -23,7 +23,7 @@ constexpr double kGoes_mps = 1;
 constexpr double kTree_m = 12;  // from one pair of trees to the next
 constexpr double kAside_m = 3.5;
 constexpr double kForEver_s = 1e6;
-constexpr std::chrono::seconds kPatience{40};  // the vehicle and its processes have to work, too
+constexpr std::chrono::seconds kPatience{120};  // the vehicle and its processes have to work, too
 
 /// Level, and trees on both sides.
 driving::CourseWorld make_avenue() {

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -30,12 +31,17 @@ enum class SensorMode : int {
 enum class OdometryMode : int {
   well,  ///< 20 Hz.
   silent,
-  moved,       ///< Well, but 5 m further.
+  moved,       ///< Well, but `kMoved_m` further.
+  returned,    ///< Well, but `kReturned_m` further.
   not_finite,  ///< Every other pose is NaN.
   backwards,   ///< Each pose is followed by one from 0.3 s before.
   fast,        ///< 200 Hz.
   slow,        ///< 1 Hz.
 };
+
+inline constexpr double kMoved_m = 5;
+inline constexpr double kReturned_m = 1;
+inline constexpr std::int64_t kNoEnd = std::numeric_limits<std::int64_t>::max();
 
 /// What the children read and tell, in memory that all share.
 struct Board {
@@ -44,13 +50,14 @@ struct Board {
   std::atomic<OdometryMode> odometry{OdometryMode::well};
   std::atomic<std::int64_t> front_ahead_ns{0};  // of the front sensor's clock before the odometry's
   std::atomic<std::int64_t> begin_ns{0};        // CLOCK_MONOTONIC of the drive's time 0
+  std::atomic<bool> has_pose{false};            // the odometry has published
   // Of the fused maps, all that were published:
   std::atomic<std::uint64_t> maps{0};
   std::atomic<std::uint64_t> wrong_maps{0};   // with hits where the sensor cannot see
   std::atomic<double> farthest_m{0};          // hit from the vehicle in the newest map
   std::atomic<std::uint64_t> maps_in_gap{0};  // whose stamp lies within `gap_begin_ns` and `gap_end_ns`
-  std::atomic<std::int64_t> gap_begin_ns{0};
-  std::atomic<std::int64_t> gap_end_ns{0};
+  std::atomic<std::int64_t> gap_begin_ns{0};  // the last pose before the odometry fell silent
+  std::atomic<std::int64_t> gap_end_ns{0};    // the first one after that; kNoEnd: it is silent
 };
 
 /// Both sensors see a floor of rings around the vehicle, at most 8 m away; the foreign one's are 20 m away.
@@ -69,6 +76,8 @@ class Lab {
   [[nodiscard]] std::string reason(const std::string& process) const;
   [[nodiscard]] bool is_ok(const std::string& process) const;
   [[nodiscard]] bool layers_flow(std::uint64_t more = 5) const;
+  /// What the process dropped, without what `late` counts: which it may, if somebody gets no processor.
+  [[nodiscard]] std::string drops_besides(const std::string& process, const std::string& late) const;
   [[nodiscard]] std::int64_t drive_ns() const;  ///< Now, on the sensors' clock.
   void stop();
 

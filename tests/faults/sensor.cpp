@@ -145,16 +145,16 @@ void sleep_until(const Board& board, std::int64_t drive_ns) {
 /// The poses of one mode.
 class Poses {
  public:
-  explicit Poses(const Board& board)
-      : board_(board), client_(ipc::PlannerClient::connect("lab-odometry").value()) {}
+  Poses() : client_(ipc::PlannerClient::connect("lab-odometry", ipc::test::kPatience).value()) {}
 
-  void publish(OdometryMode mode) {
-    const std::int64_t now_ns = drive_now_ns(board_);
+  void publish(OdometryMode mode, std::int64_t drive_ns) {
     if (mode == OdometryMode::silent) return;
-    const double x_m = mode == OdometryMode::moved ? 5 : 0;
+    double x_m = 0;
+    if (mode == OdometryMode::moved) x_m = kMoved_m;
+    if (mode == OdometryMode::returned) x_m = kReturned_m;
     const bool broken = mode == OdometryMode::not_finite && ++count_ % 2 == 0;
-    send(broken ? std::numeric_limits<double>::quiet_NaN() : x_m, now_ns);
-    if (mode == OdometryMode::backwards) send(x_m, now_ns - 300'000'000);
+    send(broken ? std::numeric_limits<double>::quiet_NaN() : x_m, drive_ns);
+    if (mode == OdometryMode::backwards) send(x_m, drive_ns - 300'000'000);
   }
 
  private:
@@ -165,10 +165,20 @@ class Poses {
     EXPECT(client_.publish_odometry(odometry, kDriveBegin_ns + drive_ns, 1));
   }
 
-  const Board& board_;
   ipc::PlannerClient client_;
   int count_ = 0;
 };
+
+std::int64_t period_ns(OdometryMode mode) {
+  if (mode == OdometryMode::fast) return 5'000'000;
+  return mode == OdometryMode::slow ? 1'000'000'000 : 50'000'000;
+}
+
+/// Tells when the poses cease, and when they go on. Between both there is none.
+void note_gap(Board& board, bool ceases, std::int64_t last_ns, std::int64_t next_ns) {
+  if (ceases) board.gap_begin_ns = last_ns;
+  board.gap_end_ns = ceases ? kNoEnd : next_ns;
+}
 
 double farthest_hit_m(const ipc::BrickMapSample& map) {
   double farthest_m = 0;
@@ -188,7 +198,9 @@ double farthest_hit_m(const ipc::BrickMapSample& map) {
 void live_as_sensor(std::uint16_t port, const std::atomic<SensorMode>& mode,
                     const std::atomic<std::int64_t>& ahead_ns, const Board& board) {
   Faulty sensor(port, ahead_ns);
-  for (std::int64_t frame = 0;; ++frame) {
+  std::int64_t frame = drive_now_ns(board) / kFrame_ns;
+  while (true) {
+    frame = std::max(frame + 1, drive_now_ns(board) / kFrame_ns);  // what it slept through, nobody sees
     for (int index = 0; index < kPackets; ++index) {
       sleep_until(board, frame * kFrame_ns + (index + 1) * kFrame_ns / kPackets);
       sensor.send(mode, frame, index);
@@ -196,20 +208,27 @@ void live_as_sensor(std::uint16_t port, const std::atomic<SensorMode>& mode,
   }
 }
 
-void live_as_odometry(const Board& board) {
-  Poses poses(board);
-  while (true) {
+void live_as_odometry(Board& board) {
+  Poses poses;
+  OdometryMode before = OdometryMode::well;
+  std::int64_t last_ns = 0;
+  // The vehicle stands, so that each pose is known when it is late, too: a pause makes no gap.
+  for (std::int64_t next_ns = drive_now_ns(board);; next_ns += period_ns(before)) {
+    sleep_until(board, next_ns);
     const OdometryMode mode = board.odometry;
-    poses.publish(mode);
-    std::chrono::milliseconds period = 50ms;
-    if (mode == OdometryMode::fast) period = 5ms;
-    if (mode == OdometryMode::slow) period = 1000ms;
-    std::this_thread::sleep_for(period);
+    const bool was_silent = before == OdometryMode::silent;
+    const bool is_silent = mode == OdometryMode::silent;
+    if (was_silent && !is_silent) next_ns = drive_now_ns(board);
+    if (was_silent != is_silent) note_gap(board, is_silent, last_ns, next_ns);
+    poses.publish(mode, next_ns);
+    if (!is_silent) last_ns = next_ns;
+    board.has_pose = true;
+    before = mode;
   }
 }
 
 void live_as_judge(Board& board) {
-  auto runtime = ipc::Runtime::connect("lab-judge", 5s).value();
+  auto runtime = ipc::Runtime::connect("lab-judge", ipc::test::kPatience).value();
   auto voxels = ipc::BrickMapSubscriber::voxel_map(runtime).value();
   auto waiter = ipc::Waiter::create(runtime);
   waiter.add(voxels);

@@ -14,7 +14,7 @@ inline constexpr std::int64_t kDriveBegin_ns = 1'000'000'000'000;  // of the sen
                                  const std::atomic<std::int64_t>& ahead_ns, const Board& board);
 
 /// Publishes the pose of the vehicle, which stands still, as the board says.
-[[noreturn]] void live_as_odometry(const Board& board);
+[[noreturn]] void live_as_odometry(Board& board);
 
 /// Looks at every fused map.
 [[noreturn]] void live_as_judge(Board& board);

@@ -1,6 +1,7 @@
 // Planners that hang or die: neither fusion nor another planner notices.
 #include <sys/mman.h>
 
+#include <algorithm>
 #include <atomic>
 #include <catch2/catch.hpp>
 #include <new>
@@ -19,6 +20,7 @@ using namespace std::chrono_literals;
 namespace {
 
 constexpr int kCrashers = 10;
+constexpr std::uint32_t kStrayChunks = 2;  // in flight
 
 /// What a planner tells of the layers that fusion published.
 struct Told {
@@ -58,8 +60,8 @@ Told* shared_told() {
 
 [[noreturn]] void hang_with_layers(Step& holds) {
   auto client = PlannerClient::connect("hangs").value();
-  const auto first = client.newest_layers(5s, gvom::ipc::kAnyAge);
-  const auto second = client.newest_layers(5s, gvom::ipc::kAnyAge);
+  const auto first = client.newest_layers(gvom::ipc::test::kPatience, gvom::ipc::kAnyAge);
+  const auto second = client.newest_layers(gvom::ipc::test::kPatience, gvom::ipc::kAnyAge);
   EXPECT(first && second);
   holds.reach(1);
   while (true) ::raise(SIGSTOP);
@@ -95,7 +97,7 @@ TEST_CASE("a planner that hangs while it holds layers, and ten that crash again 
   const std::uint64_t received = told.received;
   CHECK(eventually([&] { return told.received >= received + 60; }));  // more than a planner's queue holds
   CHECK(told.lost == 0);
-  CHECK(lab.observer->drops("gvom-fusion") == "");
+  CHECK(lab.drops_besides("gvom-fusion", "drop_map_too_old") == "");
   report("a planner hangs while it holds layers", "the others nothing", 0, "");
 
   std::minstd_rand random(1);
@@ -112,17 +114,22 @@ TEST_CASE("a planner that hangs while it holds layers, and ten that crash again 
   const std::uint64_t through = told.received;
   CHECK(eventually([&] { return told.received >= through + 20; }));
   CHECK(told.lost == 0);
-  CHECK(lab.observer->drops("gvom-fusion") == "");
+  CHECK(lab.drops_besides("gvom-fusion", "drop_map_too_old") == "");
   report("ten planners crash, " + std::to_string(kills) + " times", "the others nothing", 0, "");
 
   hung.kill();
   reclaim("hangs");
   for (int i = 0; i < kCrashers; ++i) reclaim(name(i));
-  const auto after = used_at_rest(lab);
+  auto after = used_at_rest(lab);
   REQUIRE(after.size() == before.size());
+  const auto are_back = [&] {
+    return std::equal(after.begin(), after.end(), before.begin(),
+                      [](std::uint32_t now, std::uint32_t then) { return now <= then + kStrayChunks; });
+  };
+  for (int i = 0; i < 3 && !are_back(); ++i) after = used_at_rest(lab);  // somebody may have paused with some
   for (std::size_t pool = 0; pool < after.size(); ++pool) {
     INFO("pool " << pool << ": " << before[pool] << " chunks before, " << after[pool] << " after");
-    CHECK(after[pool] <= before[pool] + 2);
+    CHECK(after[pool] <= before[pool] + kStrayChunks);
   }
   lab.stop();
 }

@@ -7,6 +7,7 @@ export GVOM_REAL_BIN=$2
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 export GVOM_HOLDER_FILE=$scratch/holder
+export GVOM_SLOWER=3  # a busy machine may be
 bundle=$scratch/bundle
 gpu_check=$bundle/bin/gpu-check
 
@@ -35,7 +36,7 @@ make_bundle() {
 holder_ends() {
   local i pid
   pid=$(< "$GVOM_HOLDER_FILE")
-  for ((i = 0; i < 100; ++i)); do
+  for ((i = 0; i < 400; ++i)); do
     kill -0 "$pid" 2> /dev/null || return 0
     sleep 0.05
   done
@@ -67,10 +68,10 @@ tell_faults() {
 end_with_it() {  # while a step runs that goes on for longer than the holder may
   local pid i
   rm -f "$GVOM_HOLDER_FILE"
-  GVOM_SLOW_S=8 "$gpu_check" --quick --out "$scratch/killed" > "$scratch/said" 2>&1 &
+  GVOM_SLOW_S=40 "$gpu_check" --quick --out "$scratch/killed" > "$scratch/said" 2>&1 &
   pid=$!
-  for ((i = 0; i < 200; ++i)); do
-    if [[ -e $scratch/killed/test_cuda_twins-1.log ]]; then break; fi
+  for ((i = 0; i < 1200; ++i)); do
+    if [[ -s $GVOM_HOLDER_FILE && -e $scratch/killed/test_cuda_twins-1.log ]]; then break; fi
     sleep 0.05
   done
   kill -KILL "$pid"

@@ -30,7 +30,7 @@ hears() {  # hears MODE TOPIC WORDS: whether a peer of Fast DDS gets a line that
   exec 4<> /tmp/peer.in  # it stays until its input ends
   "$GVOM_BIN/dds_peer" "$domain" "$1" "$2" < /tmp/peer.in > /tmp/peer.log 4>&- &
   peer=$!
-  eventually 20 grep --quiet "^$3" /tmp/peer.log || code=1
+  eventually 60 grep --quiet "^$3" /tmp/peer.log || code=1
   kill "$peer"
   wait "$peer" || true
   exec 4>&-
@@ -72,14 +72,14 @@ check_bridge() {
   local pid
   say "starting gvom-bridge"
   systemctl start gvom-bridge || fail "gvom-bridge does not start"
-  eventually 10 page_comes || { head -c 300 /tmp/page; fail "the bridge serves no page"; }
+  eventually 60 page_comes || { head -c 300 /tmp/page; fail "the bridge serves no page"; }
   check_network
-  eventually 20 have_recorded 1 || fail "nothing is recorded in $recordings"
+  eventually 60 have_recorded 1 || fail "nothing is recorded in $recordings"
   pid=$(pid_of gvom-bridge)
   kill -KILL "$pid"
-  eventually 10 is_new_bridge "$pid" || fail "gvom-bridge is not back after kill -9"
-  eventually 10 page_comes || fail "no page after kill -9"
-  eventually 20 have_recorded 2 || fail "the new bridge does not record"
+  eventually 60 is_new_bridge "$pid" || fail "gvom-bridge is not back after kill -9"
+  eventually 60 page_comes || fail "no page after kill -9"
+  eventually 60 have_recorded 2 || fail "the new bridge does not record"
   systemctl stop gvom-bridge
   [[ $(property gvom-bridge Result) == success ]] || fail "gvom-bridge ended with $(property gvom-bridge Result)"
   check_recordings

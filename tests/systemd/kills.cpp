@@ -3,7 +3,8 @@
 // stops them for so long instead (SIGSTOP). Joins the bus, so it runs as the user of the services, which live
 // under a supervisor. A line for each kill. Exit codes: 0 all was well, 1 not so, 75 the broker went away in
 // between (to be called again). The bounds on times are those that tools/faults holds the graph to
-// (GVOM_FAULTS_REPEAT is set); without, as among other tests on a busy machine, they are ten times as long.
+// (GVOM_FAULTS_REPEAT is set); without, as among other tests on a busy machine, they are ten times as long,
+// and a lidar next to a faulted one need not keep all its maps.
 #include <signal.h>
 #include <unistd.h>
 
@@ -24,7 +25,7 @@ using namespace std::chrono_literals;
 using test::BusLog;
 
 constexpr std::uint32_t kFull = 8;                     // maps of each lidar: window.buffer_size
-constexpr std::int64_t kPatience_ns = 20'000'000'000;  // for what has no bound of its own
+constexpr std::int64_t kPatience_ns = 60'000'000'000;  // for what has no bound of its own
 constexpr double kWindowWithin_s = 1.5;
 constexpr double kNamedWithin_s = 0.5;
 constexpr double kOthersPause_s = 1;
@@ -51,9 +52,13 @@ double seconds(std::int64_t ns) {
   return static_cast<double>(ns) * 1e-9;
 }
 
-bool is_within(std::int64_t took_ns, double bound_s) {
+bool is_strict() {
   static const bool strict = std::getenv("GVOM_FAULTS_REPEAT") != nullptr;
-  return seconds(took_ns) < (strict ? bound_s : 10 * bound_s);
+  return strict;
+}
+
+bool is_within(std::int64_t took_ns, double bound_s) {
+  return seconds(took_ns) < (is_strict() ? bound_s : 10 * bound_s);
 }
 
 class Campaign {
@@ -91,7 +96,7 @@ class Campaign {
         leave(75);
       }
       if (ipc::monotonic_ns() < deadline_ns) continue;
-      std::printf("NOT WELL: in vain for 20 s: %s\n", what);
+      std::printf("NOT WELL: in vain for 60 s: %s\n", what);
       leave(1);
     }
   }
@@ -206,8 +211,9 @@ class Campaign {
     check(is_within(gap_ns, kOthersPause_s), "no layers for %.2f s", seconds(gap_ns));
     for (const BusLog::Lidar& other : log_.lidars) {
       if (other.name == victim.name) continue;
-      check(other.fewest_maps >= kFull && other.named_missing_ns == 0,
-            "%s was left with %u maps in the window", other.name.c_str(), other.fewest_maps);
+      const bool kept_all = other.fewest_maps >= kFull && other.named_missing_ns == 0;
+      check(is_strict() ? kept_all : other.fewest_maps > 0, "%s was left with %u maps in the window",
+            other.name.c_str(), other.fewest_maps);
     }
   }
 

@@ -7,7 +7,7 @@ source "$(dirname "$0")/common.bash"
 
 repeat=${GVOM_FAULTS_REPEAT:-1}
 few=$((repeat < 20 ? repeat : 20))
-most_ms=15000  # among other tests on a busy machine
+most_ms=40000  # on a busy machine that pauses
 if [[ -n ${GVOM_FAULTS_REPEAT:-} ]]; then most_ms=5000; fi
 hang_tries=60
 old_pids=''
@@ -20,15 +20,15 @@ all_are_new() {
   done
 }
 
-is_back() { [[ -e /tmp/gvom-test/window ]] && all_are_new; }
+is_back() { [[ -e /tmp/gvom-test/window ]] && (($(cat /tmp/gvom-test/window) > fault_ms)) && all_are_new; }
 
 recover_from() {  # recover_from COMMAND...: it sets `fault_ms`; all processes anew, and layers
-  rm -f /tmp/gvom-test/{layers,window}
+  eventually 60 are_active "${members[@]}" || fail "$*: not everything runs"
+  rm -f /tmp/gvom-test/{layers,window}  # a vehicle writes each but once: what comes is of a new one
   old_pids=$(for unit in "${members[@]}"; do pid_of "$unit"; done | tr '\n' ' ')
   fault_ms=$(now_ms)
   "$@"
-  rm -f /tmp/gvom-test/{layers,window}  # the last ones of the old broker
-  eventually 20 is_back || fail "$*: not everything came back"
+  eventually 60 is_back || fail "$*: not everything came back"
   layers_ms=$(($(cat /tmp/gvom-test/layers) - fault_ms)) window_ms=$(($(cat /tmp/gvom-test/window) - fault_ms))
   say "$*: a planner has layers after $layers_ms ms, of a full window after $window_ms ms"
   ((layers_ms < most_ms)) || fail "$*: that is too slow"
@@ -45,14 +45,21 @@ stop_broker_and_kill_fusion() {
   kill -KILL "$(pid_of gvom-fusion)"
 }
 
+is_another_broker() { [[ $(pid_of gvom-roudi) != "$1" ]]; }
+
 restart_broker() { systemctl restart --no-block gvom-roudi; }
 
 # A process that dies within a publish leaves a lock behind that the broker then waits for.
 hang_broker() {
-  if ! runuser -u gvom -- gvom-test-hang "$hang_tries" > /tmp/hang.log; then
-    echo "SKIPPED: in $hang_tries kills within a publish the broker did not hang"
-    exit 77
-  fi
+  local broker
+  broker=$(pid_of gvom-roudi)
+  while true; do
+    if ! runuser -u gvom -- gvom-test-hang "$hang_tries" > /tmp/hang.log; then
+      echo "SKIPPED: in $hang_tries kills within a publish the broker did not hang"
+      exit 77
+    fi
+    if eventually 10 is_another_broker "$broker"; then break; fi  # else the machine paused, and the broker lives
+  done
   read -r fault_ms rest < /tmp/hang.log
   say "the broker hangs $rest"
 }
@@ -73,7 +80,7 @@ use_test_programs
 use_recording
 use_live_vehicle
 start_all
-eventually 20 test -e /tmp/gvom-test/window || fail "no layers came at first"
+eventually 60 test -e /tmp/gvom-test/window || fail "no layers came at first"
 check "gvom-roudi killed" kill_broker "$repeat"
 check "gvom-roudi stopped (SIGSTOP)" stop_broker "$few"
 check "gvom-roudi stopped, gvom-fusion killed" stop_broker_and_kill_fusion "$few"

@@ -23,7 +23,7 @@ campaign() {
     cat /tmp/kills.log >> "$rounds"
     ((code == 75)) || break
     left=$((left - $(grep --count 'well again' /tmp/kills.log || true) / kinds - 1)) hangs=$((hangs + 1))
-    eventually 20 is_new_broker "$broker" || fail "the broker hung, and not all are back"
+    eventually 60 is_new_broker "$broker" || fail "the broker hung, and not all are back"
     say "the broker hung and was started again"
   done
   report "$processes" "${3:+stopped for $3 s}"

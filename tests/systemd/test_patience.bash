@@ -4,12 +4,12 @@
 # shellcheck source=common.bash
 source "$(dirname "$0")/common.bash"
 
-most_ms=10000  # among other tests on a busy machine; 5 s otherwise
+most_ms=60000  # on a busy machine that pauses; 5 s otherwise
 
 must_be_back() {  # must_be_back WORDS: from now
   local begin
   begin=$(now_ms)
-  eventually 20 are_active "${members[@]}" || fail "$*: not everything came back"
+  eventually 60 are_active "${members[@]}" || fail "$*: not everything came back"
   must_see_layers "$*"
   local took=$(($(now_ms) - begin))
   say "$*: all are back after $took ms"
@@ -30,10 +30,10 @@ check_boot() {
   begin=$(now_ms)
   systemctl start gvom.target
   say "systemctl start gvom.target returns after $(($(now_ms) - begin)) ms, without a broker"
-  (($(now_ms) - begin < 10000)) || fail "systemctl start gvom.target blocks"
-  eventually 10 is_refused || fail "gvom-roudi is not refused"
+  (($(now_ms) - begin < 30000)) || fail "systemctl start gvom.target blocks"
+  eventually 60 is_refused || fail "gvom-roudi is not refused"
   for unit in "${members[@]:1}"; do
-    eventually 10 waits "$unit" || fail "$unit does not wait for the broker: $(property "$unit" StatusText)"
+    eventually 60 waits "$unit" || fail "$unit does not wait for the broker: $(property "$unit" StatusText)"
   done
   before=$(restarts)
   sleep 2.5  # two more tries of the broker
@@ -43,10 +43,13 @@ check_boot() {
 }
 
 check_running() {  # check_running FILE
+  local pid
+  pid=$(pid_of gvom-roudi)
   put_in_the_way "$1.others"
-  kill -KILL "$(pid_of gvom-roudi)"
+  kill -STOP "$pid"  # the next one is to find it: not before the file is there does this one end
   mv "$1.others" "$1"
-  eventually 10 is_refused || fail "gvom-roudi is not refused because of $1"
+  kill -KILL "$pid"
+  eventually 60 is_refused || fail "gvom-roudi is not refused because of $1"
   sleep 2.5
   rm "$1"
   must_be_back "refused for 3 s because of $1"
@@ -63,14 +66,14 @@ check_kills() {  # check_kills TIMES: each within the start after the one before
   for ((i = 0; i < $1; i++)); do
     pid=$(pid_of gvom-roudi)
     kill -KILL "$pid"
-    eventually 10 is_starting_anew "$pid" || fail "the broker is not started again"
+    eventually 60 is_starting_anew "$pid" || fail "the broker is not started again"
   done
   must_be_back "the broker killed $1 times, within its own start"
 }
 
 check_stop() {  # by hand: it stays so, and the others wait
   systemctl stop gvom-roudi
-  for unit in "${members[@]:1}"; do eventually 10 waits "$unit" || fail "$unit does not wait for a broker that was stopped"; done
+  for unit in "${members[@]:1}"; do eventually 60 waits "$unit" || fail "$unit does not wait for a broker that was stopped"; done
   [[ $(property gvom-roudi ActiveState) == inactive ]] || fail "a broker that was stopped by hand is $(property gvom-roudi ActiveState)"
   systemctl start gvom-roudi
   must_be_back "the broker stopped and started by hand"
@@ -78,6 +81,7 @@ check_stop() {  # by hand: it stays so, and the others wait
 
 unpack_package
 use_small_map
+use_patience
 use_recording
 check_boot
 check_kills 2

@@ -48,6 +48,7 @@ expect gvom-fusion.service PrivateDevices no
 exposure=$(systemd-analyze security --offline=true --threshold=30 --no-pager gvom-fusion.service) || fail "fusion with a GPU is too exposed"
 say "fusion with a GPU: $(grep -oE 'exposure level.*: [0-9.]+' <<< "$exposure")"
 rm /etc/systemd/system/gvom-odometry.service.d/once.conf  # the bridge is to have something to send as long as it takes
+use_patience
 use_recording
 use_bridge
 start_all

@@ -1,13 +1,15 @@
 // gvom-test-vehicle RECORDING FOLDER NAME:PORT...: a vehicle that stands still, live. One sweep of each lidar
-// of a recording is sent to its port at 20 Hz, over and over with new times, and the pose is published on the
-// bus. It is a planner, too: FOLDER/layers and FOLDER/window tell when (Unix time, ms) it got its first
-// layers, and its first of a full window.
+// of a recording is sent to its port at 20 Hz (or each GVOM_TURN_MS), over and over with new times, and the
+// pose is published on the bus. It is a planner, too: FOLDER/layers and FOLDER/window tell when (Unix time,
+// ms) it got its first layers, and its first of a full window.
 #include <arpa/inet.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <string>
@@ -29,12 +31,16 @@ using services::ExitCode;
 using std::chrono::steady_clock;
 using Datagram = std::vector<std::uint8_t>;
 
-constexpr std::int64_t kTurn_ns = 50'000'000;
 constexpr std::size_t kFrameId = 2;  // in a packet of RNG15_RFL8_NIR8, gvom-sim's
 constexpr std::size_t kColumns = 16;
 constexpr int kAtOnce = 4;  // packets, as they come through a switch
 constexpr auto kPosePeriod = 20ms;
 constexpr std::uint32_t kFull = 8;  // maps of each lidar: window.buffer_size
+
+std::int64_t turn_ns() {
+  static const char* const set_ms = std::getenv("GVOM_TURN_MS");
+  return (set_ms != nullptr ? std::atoi(set_ms) : 50) * std::int64_t{1'000'000};
+}
 
 /// The second sweep of a recording: the first whole one. Empty if there is none.
 std::vector<Datagram> read_sweep(const std::string& path) {
@@ -64,7 +70,7 @@ void redate(Datagram& packet, std::int64_t turn, std::size_t index, std::size_t 
   for (std::size_t i = 0; i < kColumns; ++i) {
     const auto part = static_cast<std::int64_t>(index * kColumns + i);
     const std::int64_t time_ns =
-        turn * kTurn_ns + part * kTurn_ns / static_cast<std::int64_t>(packets * kColumns);
+        turn * turn_ns() + part * turn_ns() / static_cast<std::int64_t>(packets * kColumns);
     std::memcpy(packet.data() + layout.packet_header + i * column_size, &time_ns, sizeof time_ns);
   }
 }
@@ -75,11 +81,13 @@ void redate(Datagram& packet, std::int64_t turn, std::size_t index, std::size_t 
   to.sin_family = AF_INET;
   to.sin_port = htons(port);
   to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  for (std::int64_t turn = ipc::monotonic_ns() / kTurn_ns;; ++turn) {
+  std::int64_t turn = ipc::monotonic_ns() / turn_ns();
+  while (true) {
+    turn = std::max(turn + 1, ipc::monotonic_ns() / turn_ns());  // what it slept through, nobody sees
     for (std::size_t i = 0; i < sweep.size(); ++i) {
       if (i % kAtOnce == 0) {
-        const auto share = static_cast<std::int64_t>(i + kAtOnce) * kTurn_ns;
-        const std::int64_t due_ns = turn * kTurn_ns + share / static_cast<std::int64_t>(sweep.size());
+        const auto share = static_cast<std::int64_t>(i + kAtOnce) * turn_ns();
+        const std::int64_t due_ns = turn * turn_ns() + share / static_cast<std::int64_t>(sweep.size());
         std::this_thread::sleep_for(std::chrono::nanoseconds(due_ns - ipc::monotonic_ns()));
       }
       redate(sweep[i], turn, i, sweep.size());

@@ -13,9 +13,14 @@ constexpr double kPatience_s = 60;  // then it is not waited for any more
 
 }  // namespace
 
-Faults::Faults(std::uint32_t seed, double every_s, const std::vector<std::string>& lidars, Board& board,
-               Hands hands)
-    : random_(seed), every_s_(every_s), lidars_(lidars), board_(board), hands_(std::move(hands)) {}
+Faults::Faults(std::uint32_t seed, double every_s, double recovery_s, const std::vector<std::string>& lidars,
+               Board& board, Hands hands)
+    : random_(seed),
+      every_s_(every_s),
+      recovery_s_(recovery_s),
+      lidars_(lidars),
+      board_(board),
+      hands_(std::move(hands)) {}
 
 void Faults::step(std::int64_t now_ns, double run_s, bool may_begin) {
   if (current_) return watch(*current_, now_ns);
@@ -109,7 +114,7 @@ void Faults::watch(Fault& fault, std::int64_t now_ns) {
   const double since_s = static_cast<double>(now_ns - fault.cure_ns) * 1e-9;
   const bool well = hands_.all_is_well(fault.cure_ns);
   if (!well && since_s < kPatience_s) return;
-  results_.push_back({text_of(fault), fault.at_s, since_s, well && since_s <= kRecovery_s});
+  results_.push_back({text_of(fault), fault.at_s, since_s, well && since_s <= recovery_s_});
   current_.reset();
 }
 

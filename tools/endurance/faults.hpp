@@ -19,7 +19,7 @@ struct FaultResult {
   bool in_time;
 };
 
-inline constexpr double kRecovery_s = 10;
+inline constexpr double kRecovery_s = 10;  ///< All must be well again within it, if nothing else is said.
 
 class Faults {
  public:
@@ -30,8 +30,8 @@ class Faults {
     std::function<void(std::int64_t from_ns, std::int64_t to_ns, const std::string& what)> disturb;
   };
 
-  Faults(std::uint32_t seed, double every_s, const std::vector<std::string>& lidars, Board& board,
-         Hands hands);
+  Faults(std::uint32_t seed, double every_s, double recovery_s, const std::vector<std::string>& lidars,
+         Board& board, Hands hands);
 
   /// Call it often. `may_begin`: a new fault may be made.
   void step(std::int64_t now_ns, double run_s, bool may_begin);
@@ -59,6 +59,7 @@ class Faults {
 
   std::mt19937 random_;
   double every_s_;
+  double recovery_s_;
   std::vector<std::string> lidars_;
   Board& board_;
   Hands hands_;

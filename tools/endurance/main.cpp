@@ -38,6 +38,9 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--fault-every", options.soak.fault_every_s, "seconds between faults, in the mean")
       ->check(CLI::Range(1.0, 3600.0))
       ->capture_default_str();
+  app.add_option("--recovery", options.soak.recovery_s, "seconds after a fault until all must be well again")
+      ->check(CLI::Range(1.0, 60.0))
+      ->capture_default_str();
   app.add_option("--seed", options.soak.seed, "of the faults")->capture_default_str();
 }
 

@@ -50,7 +50,7 @@ Soak::Soak(const SoakOptions& options, const Recording& recording, Board& board,
       pauses_(options.lidars, ledger_),
       health_(processes_of(options.lidars)),
       sampler_(options.out, warm_up_s(options.minutes * 60, recording)),
-      faults_(options.seed, options.fault_every_s, options.lidars, board, hands()) {
+      faults_(options.seed, options.fault_every_s, options.recovery_s, options.lidars, board, hands()) {
   if (supervisor != nullptr) watchdog_.emplace(*supervisor);
 }
 

@@ -23,6 +23,7 @@ struct SoakOptions {
   double minutes = 1;
   bool faults = false;
   double fault_every_s = 20;
+  double recovery_s = kRecovery_s;
   std::uint32_t seed = 1;
   std::vector<std::string> lidars;
   std::vector<std::uint16_t> ports;  ///< Of each lidar.

@@ -106,13 +106,13 @@ test('the page in Chromium', { skip: lacks, timeout: 280000 }, async (t) => {
           feed.on_map = show;
           resolve({ before, after: look() });
         };
-        for (const end_ms = performance.now() + 2500; performance.now() < end_ms;);
+        for (const end_ms = performance.now() + 6000; performance.now() < end_ms;);
       };
     }));
     clearInterval(watch);
-    // How far the page is behind all the time, on a machine that is too slow for it, nobody tells it.
+    // How far the page is behind all the time, on a machine that is too slow for it or that pauses, nobody tells it.
     const untold_s = ({ age_s, stamp_s, wall_s }) => wall_s - (stamp_s - 1000 + bridge.started_wall_s) - age_s;
-    assert.ok(untold_s(after) < untold_s(before) + 0.5, `the first map after it is ${untold_s(after)} s older than it is said to be, the one before ${untold_s(before)} s`);
+    assert.ok(untold_s(after) < untold_s(before) + 3, `the first map after it is ${untold_s(after)} s older than it is said to be, the one before ${untold_s(before)} s`);
     assert.ok(most_waiting.now <= 6, `${most_waiting.now} messages waited`);
     await until_map(page, 'fresh');
   });
