@@ -96,8 +96,8 @@ TEST_CASE("the GPU is held until standard input ends, after a line that says wha
             "fake device on the host (compute capability 0.0, driver for CUDA 13.0): opened in ") == 0);
   CHECK(bench("--hold-gpu < /dev/null", log, "GVOM_SERIAL_DEVICE_FAIL_AT=1") == 69);
   CHECK(contents(log) == "gvom-bench: cudaStreamSynchronize: an illegal memory access was encountered\n");
-  const std::string waits = "sleep 1 | timeout 0.5 env";
-  CHECK(bench("--hold-gpu", log, waits) == 124);
+  const std::string endless = "'" + folder.path() + "/endless'";
+  CHECK(bench("--hold-gpu <> " + endless, log, "mkfifo " + endless + " && timeout 0.5 env") == 124);
 }
 
 TEST_CASE("a device that cannot be used is no figure but exit 69 and its words") {

@@ -13,20 +13,24 @@
 
 namespace gvom::test {
 
-inline Vehicle with_bridge(Vehicle vehicle, std::uint16_t port) {
+inline Vehicle with_bridge(Vehicle vehicle, std::uint16_t port, const std::vector<std::string>& sets) {
   for (const std::string& set : small_map()) vehicle.sets.push_back(set);
   vehicle.sets.push_back("fusion.voxel_rate_hz=10");
   vehicle.sets.push_back("bridge.foxglove.port=" + std::to_string(port));
   vehicle.sets.push_back("bridge.mcap.folder=" + vehicle.folder + "/recorded");
   vehicle.sets.push_back("bridge.mcap.topics=" + bridge::McapConfig{}.topics + ",/gvom/status");
+  vehicle.sets.insert(vehicle.sets.end(), sets.begin(), sets.end());
   return vehicle;
 }
 
 /// Fusion, one lidar and the bridge, and a drive that goes round and round.
 struct Rig {
+  explicit Rig(const std::vector<std::string>& sets = {})
+      : graph(with_bridge(front(folder.path()), port, sets)) {}
+
   TemporaryFolder folder;
   std::uint16_t port = free_port();
-  Graph graph{with_bridge(front(folder.path()), port)};
+  Graph graph;
   std::unique_ptr<Program> bridge, odometry;
 
   static Vehicle front(const std::string& path) {

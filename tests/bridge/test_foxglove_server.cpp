@@ -106,14 +106,17 @@ TEST_CASE("a slow client sees the newest: what waits is replaced, not queued") {
     for (const auto& one : offered) alive += one.expired() ? 0 : 1;
     REQUIRE(alive <= 1 + 3);
   }
-  REQUIRE(test::eventually([&] { return server->counters().replaced >= 47; }));
-  const auto first = slow->read_data();
-  const auto second = slow->read_data();
-  REQUIRE(first);
-  REQUIRE(second);
-  CHECK(first->bytes.size() == kSize + 13);
-  CHECK(second->bytes.back() == 49);
-  CHECK(server->counters().sent + server->counters().replaced == 50);
+  REQUIRE(test::eventually([&] { return server->counters().replaced >= 48; }));
+  std::size_t got = 0;
+  for (std::uint8_t newest = 0; newest != 49; ++got) {
+    const auto message = slow->read_data();
+    REQUIRE(message);
+    CHECK(message->bytes.size() == kSize + 13);
+    newest = message->bytes.back();
+  }
+  CHECK(got <= 2);
+  CHECK(test::eventually([&] { return server->counters().sent + server->counters().replaced == 50; }));
+  CHECK(server->counters().sent == got);
 }
 
 TEST_CASE("who sends what no client sends is closed and counted; the others stay") {
@@ -157,7 +160,7 @@ TEST_CASE("a frame that announces 100 MB is refused before it comes") {
 
 TEST_CASE("who does not ask within the time there is gets closed; counted if it had begun") {
   bridge::FoxgloveOptions options;
-  options.patience = std::chrono::milliseconds(200);
+  options.patience = std::chrono::seconds(3);
   const auto server = started(options);
   const Stranger silent(server->port()), slow(server->port());
   REQUIRE(slow.send("GET / HT"));

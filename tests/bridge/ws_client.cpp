@@ -46,7 +46,7 @@ std::unique_ptr<WsClient> WsClient::connect(std::uint16_t port, const std::strin
 std::optional<WsMessage> WsClient::read() {
   beast::flat_buffer buffer;
   std::optional<WsMessage> message;
-  beast::get_lowest_layer(state_->socket).expires_after(std::chrono::seconds(5));
+  beast::get_lowest_layer(state_->socket).expires_after(std::chrono::seconds(30));
   state_->socket.async_read(buffer, [&](beast::error_code fault, std::size_t) {
     if (fault) return;
     const auto* first = static_cast<const std::uint8_t*>(buffer.cdata().data());
@@ -97,7 +97,7 @@ std::string raw_exchange(std::uint16_t port, const std::string& request, const s
     static_cast<void>(::send(socket, request.data(), request.size(), MSG_NOSIGNAL));
     char part[4096];
     pollfd readable{socket, POLLIN, 0};
-    while (::poll(&readable, 1, 5000) == 1) {
+    while (::poll(&readable, 1, 30'000) == 1) {
       const ssize_t size = ::recv(socket, part, sizeof part, 0);
       if (size <= 0) break;
       if (answer.empty()) static_cast<void>(::send(socket, then.data(), then.size(), MSG_NOSIGNAL));

@@ -23,7 +23,7 @@ class WsClient {
                                            const std::string& subprotocol = "foxglove.websocket.v1");
   ~WsClient();
 
-  /// The next message; nothing if none comes within 5 s, or the server has closed.
+  /// The next message; nothing if none comes within 30 s, or the server has closed.
   std::optional<WsMessage> read();
   /// Texts are passed over.
   std::optional<WsMessage> read_data();
@@ -39,13 +39,13 @@ class WsClient {
 };
 
 /// Sends `request` to the port, `then` when something has come, and returns all that comes until the server
-/// closes, or nothing has come for 5 s.
+/// closes, or nothing has come for 30 s.
 std::string raw_exchange(std::uint16_t port, const std::string& request, const std::string& then = "");
 
-/// Waits up to 5 s until `done` says so.
+/// Waits up to 20 s until `done` says so.
 template <typename Done>
 bool eventually(Done done) {
-  for (int i = 0; i < 2500; ++i) {
+  for (int i = 0; i < 10'000; ++i) {
     if (done()) return true;
     struct timespec pause = {0, 2'000'000};
     ::nanosleep(&pause, nullptr);

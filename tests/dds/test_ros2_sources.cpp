@@ -4,6 +4,7 @@
 #include "services/common/dds/reader.hpp"
 #include "tests/dds/message_file.hpp"
 #include "tests/ingest/bag_fixture.hpp"
+#include "tests/ingest/live_socket.hpp"
 #include "tests/ingest/ouster_builder.hpp"
 #include "tests/ingest/velodyne_builder.hpp"
 
@@ -145,18 +146,25 @@ TEST_CASE("a driver's Ouster packets are those of a port") {
   const std::string meta = write_text(folder.path() + "/meta.json", OusterSensor{}.json());
   const auto source = open(uri_of(45, "&meta=" + meta));
   MessageFile packets("ouster_sensor_msgs/msg/PacketMsg");
-  for (int column = 0; column < 16; column += 4) packets.add(ouster_message(plain_packet({}, 1, column)));
-  Driver driver(packets.add({0, 1, 0, 0}), 45);
-  for (int i = 0; i < 4; ++i) driver.peer.go();
+  Driver driver(packets, 45);
+  const auto add = [&](const Octets& message) {
+    packets.add(message);
+    driver.peer.go();
+  };
   Sweep sweep;
-  REQUIRE(next_sweep(*source, sweep));
-  CHECK(sweep.complete);
+  bool whole = false;
+  std::uint64_t sent = 0;
+  for (int frame = 1; frame <= 20 && !whole; ++frame) {  // see first_sweep()
+    for (int column = 0; column < 16; column += 4) add(ouster_message(plain_packet({}, frame, column)));
+    whole = read_to(*source, sweep, sent += 4) && sweep.complete;
+  }
+  REQUIRE(whole);
   CHECK(sweep.returns.size() == 32);
   CHECK(sweep.received_ns > 0);
-  driver.peer.go();
+  add({0, 1, 0, 0});
   CHECK(counts(
       *source, [](const auto& counters) { return counters.foreign_packets; }, 1));
-  CHECK(source->counters().packets == 5);
+  CHECK(source->counters().packets == sent + 1);
 }
 
 TEST_CASE("a driver's Velodyne scans are packets that came one after the other") {

@@ -10,6 +10,7 @@
 
 #include "services/ingest/address.hpp"
 #include "tests/ingest/frames_builder.hpp"
+#include "tests/ingest/ouster_builder.hpp"
 #include "tests/ingest/recordings.hpp"
 
 namespace gvom::test {
@@ -48,7 +49,31 @@ inline std::uint16_t free_port() {
   return Socket().port();
 }
 
-/// For a sweep that was sent.
-inline constexpr std::chrono::milliseconds kWait(200);
+/// Reads on until the source has had `packets` packets in all: a call ends early where this machine stands
+/// still. Whether the last one closed a sweep.
+inline bool read_to(ingest::Source& source, Sweep& sweep, std::uint64_t packets) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  bool closed = false;
+  do {
+    const auto event = source.next(sweep, std::chrono::milliseconds(20));
+    REQUIRE(event.has_value());
+    closed = *event == ingest::SourceEvent::kSweep;
+  } while (source.counters().packets < packets && std::chrono::steady_clock::now() < end);
+  REQUIRE(source.counters().packets >= packets);
+  return closed;
+}
+
+/// Sends frames until one is a sweep, and returns its number; 0 if none is. Where this machine stands still
+/// while the first is sent, its sender has not yet had a sensor's rate.
+inline int first_sweep(ingest::Source& source, Sweep& sweep, const Socket& sender, const std::string& host,
+                       std::uint16_t port, const OusterSensor& sensor = {}) {
+  for (int frame = 1; frame <= 20; ++frame) {
+    const std::uint64_t before = source.counters().packets;
+    for (int column = 0; column < 16; column += 4)
+      sender.send(host, port, plain_packet(sensor, frame, column));
+    if (read_to(source, sweep, before + 4) && sweep.complete) return frame;
+  }
+  return 0;
+}
 
 }  // namespace gvom::test

@@ -99,7 +99,8 @@ Outcome play(std::vector<Arrival> arrivals, double min_sweep_fraction = 0,
   Outcome outcome;
   outcome.sweeps.resize(10);
   Sweep sweep;
-  while (source.next(sweep, std::chrono::milliseconds(0)).value() == SourceEvent::kSweep) {
+  // The hour: when its time is over it says that it is idle.
+  while (source.next(sweep, std::chrono::hours(1)).value() == SourceEvent::kSweep) {
     REQUIRE_FALSE(sweep.returns.empty());
     const auto host = [](const Return& r) { return std::lround(std::hypot(r.x_m, r.y_m, r.z_m)); };
     const auto first = host(sweep.returns.front());

@@ -17,12 +17,13 @@ namespace {
 using namespace gvom;
 using namespace std::chrono_literals;
 
-void publish_for_ever() {
+void publish_for_ever(ipc::test::Step& publishes) {
   auto runtime = ipc::Runtime::connect("gvom-test-hang", 5s);
   if (!runtime) return;
   iox::popo::UntypedPublisher publisher({"gvom", "hang", "all"});
   while (true) {
     if (auto chunk = publisher.loan(8)) publisher.publish(*chunk);
+    publishes.reach(1);
   }
 }
 
@@ -38,10 +39,15 @@ int main(int argc, char** argv) {
   if (tries < 1) return 64;
   std::mt19937 random(std::random_device{}());
   long long killed_ms = 0;
+  const auto broker = ipc::broker_pid();
   for (int kills = 0; kills <= tries; ++kills) {
-    ipc::test::Child publisher(publish_for_ever);  // now the broker clears away what the last one left
-    std::this_thread::sleep_for(std::chrono::milliseconds(100 + random() % 50));
-    const bool hangs = kills > 0 && !ipc::broker_works(500ms);
+    ipc::test::Step publishes;
+    // Now the broker clears away what the last one left. If that hangs it, this one never publishes.
+    ipc::test::Child publisher([&] { publish_for_ever(publishes); });
+    ipc::test::eventually([&] { return publishes.reached(1); }, 2s);
+    std::this_thread::sleep_for(std::chrono::milliseconds(random() % 50));
+    // A slow one works, but late. In the place of one that hangs there may be another by then.
+    const bool hangs = kills > 0 && !(ipc::broker_works(3s) && ipc::broker_pid() == broker);
     if (!hangs) killed_ms = now_ms();
     publisher.kill();
     if (!hangs) continue;

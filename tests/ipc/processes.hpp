@@ -33,7 +33,7 @@ namespace gvom::ipc::test {
 
 using namespace std::chrono_literals;
 
-inline constexpr std::chrono::milliseconds kPatience = 10s;
+inline constexpr std::chrono::milliseconds kPatience = 60s;  // only what never comes takes that long
 
 /// Waits until `condition` holds; false if it did not within the time.
 template <typename Condition>
@@ -66,7 +66,8 @@ class Step {
   Step& operator=(const Step&) = delete;
 
   void reach(int step) { *step_ = step; }
-  [[nodiscard]] bool reached(int step) const { return *step_ >= step; }
+  [[nodiscard]] int now() const { return *step_; }
+  [[nodiscard]] bool reached(int step) const { return now() >= step; }
   [[nodiscard]] bool wait_for(int step) const {
     return eventually([&] { return reached(step); });
   }
@@ -81,6 +82,15 @@ inline bool is_asleep(pid_t pid) {
   std::getline(std::ifstream("/proc/" + std::to_string(pid) + "/stat"), stat);
   const auto name_end = stat.rfind(')');
   return name_end != std::string::npos && stat.compare(name_end, 3, ") S") == 0;
+}
+
+/// Whether a process has come so far that SIGTERM and SIGINT end it no more by themselves.
+inline bool takes_signals(pid_t pid) {
+  std::ifstream status("/proc/" + std::to_string(pid) + "/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.rfind("SigBlk:", 0) == 0)
+      return (std::stoull(line.substr(7), nullptr, 16) >> (SIGTERM - 1) & 1) != 0;
+  return false;
 }
 
 class Child {
@@ -107,6 +117,7 @@ class Child {
     return wait();
   }
   void send(int signal) { ::kill(pid_, signal); }
+  [[nodiscard]] pid_t pid() const { return pid_; }
   [[nodiscard]] bool sleeps() const {
     return eventually([this] { return is_asleep(pid_); });
   }

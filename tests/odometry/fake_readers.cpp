@@ -18,7 +18,7 @@ class FakeReader {
  public:
   explicit FakeReader(const std::string& name)
       : name_(name),
-        runtime_(Runtime::connect("fake-" + name, 5s).value()),
+        runtime_(Runtime::connect("fake-" + name, kPatience).value()),
         progress_(Publisher<Progress>::open(runtime_).value()),
         odometry_(Subscriber<Odometry>::open(runtime_).value()) {
     message_.lidar_count = 2;
@@ -86,7 +86,7 @@ std::function<void()> lossless_ingest(const std::string& name, const Step& done,
   };
 }
 
-std::function<void()> ingest(const std::string& name, const Step& done, std::uint64_t until) {
+std::function<void()> ingest(const std::string& name, const Step& done, std::uint64_t until, Step* joined) {
   return [=, &done] {
     FakeReader reader(name);
     std::uint64_t last = 0;
@@ -97,6 +97,7 @@ std::function<void()> ingest(const std::string& name, const Step& done, std::uin
         epoch = (*odometry)->header.epoch;
       }
       reader.publish(last, epoch);
+      if (joined != nullptr) joined->reach(1);
       std::this_thread::sleep_for(2ms);
     }
   };

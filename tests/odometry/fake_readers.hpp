@@ -17,7 +17,9 @@ std::function<void()> fusion(const ipc::test::Step& done, std::uint64_t maps = 0
 std::function<void()> lossless_ingest(const std::string& name, const ipc::test::Step& done,
                                       std::chrono::milliseconds pause, std::uint64_t poses);
 
-/// Acknowledges the first `until` messages (0: all) as they come, and goes on saying so.
-std::function<void()> ingest(const std::string& name, const ipc::test::Step& done, std::uint64_t until = 0);
+/// Acknowledges the first `until` messages (0: all) as they come, and goes on saying so; reaches 1 of
+/// `joined` when it has begun to.
+std::function<void()> ingest(const std::string& name, const ipc::test::Step& done, std::uint64_t until = 0,
+                             ipc::test::Step* joined = nullptr);
 
 }  // namespace gvom::test

@@ -156,7 +156,9 @@ void FlatWorld::live(const services::VehicleConfig& config) {
     state_->x_m = drive.x_m();
     state_->speed_mps = drive.speed_mps();
     state_->commands = drive.taken();
-    next += std::chrono::milliseconds(static_cast<int>(kStep_s * 1000));
+    // After a pause it goes on from where it is: no steps are made up for, which no command could steer.
+    next = std::max(next + std::chrono::milliseconds(static_cast<int>(kStep_s * 1000)),
+                    std::chrono::steady_clock::now());
     std::this_thread::sleep_until(next);
   }
 }

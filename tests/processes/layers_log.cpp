@@ -36,21 +36,24 @@ LayersLog::~LayersLog() {
 
 void LayersLog::write() {
   auto runtime = ipc::Runtime::connect("layers-log", 5s).value();
-  auto subscriber = ipc::LayersSubscriber::open(runtime).value();
+  ipc::Topic topic = ipc::layers_topic();
+  topic.queue = kLayersLogQueue;
+  auto port = ipc::InPort::open(runtime, topic).value();
   auto waiter = ipc::Waiter::create(runtime);
-  waiter.add(subscriber);
+  waiter.add(port);
   up_step_.reach(1);
   while (true) {
     waiter.wait(100ms);
-    while (const auto sample = subscriber.take()) {
-      EXPECT(sample->size_xy() == LoggedLayers::kSize);
+    while (auto chunk = port.take()) {
+      const ipc::LayersSample sample(std::move(*chunk));
+      EXPECT(sample.size_xy() == LoggedLayers::kSize);
       EXPECT(pages_->count < kMost);
       LoggedLayers& page = pages_->layers[pages_->count];
-      page.header = sample->header();
+      page.header = sample.header();
       const auto copy = [](const auto& from, auto& to) { std::copy(from.begin(), from.end(), to.begin()); };
-      copy(sample->layer_f(LayerId::last_seen), page.last_seen_s);
-      copy(sample->layer_u8(LayerId::visibility), page.visibility);
-      copy(sample->layer_u8(LayerId::cost), page.cost);
+      copy(sample.layer_f(LayerId::last_seen), page.last_seen_s);
+      copy(sample.layer_u8(LayerId::visibility), page.visibility);
+      copy(sample.layer_u8(LayerId::cost), page.cost);
       ++pages_->count;
     }
   }

@@ -27,9 +27,13 @@ struct LoggedLayers {
   [[nodiscard]] const ipc::LidarStatus& lidar(const char* name) const;
 };
 
+/// Its queue holds the layers of seconds: what is not in it was not published.
+inline constexpr std::uint32_t kLayersLogQueue = 64;
+inline constexpr const char* kRoomForLayersLog = "ipc.max_planners=32";
+
 class LayersLog {
  public:
-  /// Joins the bus; on it when the constructor returns. It reads as planners do, and counts as one.
+  /// Joins the bus, whose pools have room for it; on it when the constructor returns.
   LayersLog();
   ~LayersLog();
   LayersLog(const LayersLog&) = delete;

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <fstream>
 #include <limits>
+#include <sstream>
 
 #include "ipc/brick_map.hpp"
 #include "ipc/fixed.hpp"
@@ -103,11 +104,12 @@ void Observer::watch() {
     waiter.wait(100ms);
     if (const auto map = voxels.take()) save(observed_voxels(*map), folder_ + "/voxels");
     ::pthread_mutex_lock(&board_->mutex);
+    while (const auto sample = health.take())
+      note(**sample);  // first: then the layers that it counts are there
     while (const auto sample = layers.take()) {
       ++board_->layers;
       board_->newest = sample->header();
     }
-    while (const auto sample = health.take()) note(**sample);
     if (const auto pools = pool_reports.take()) {
       ++board_->pool_reports;
       board_->pools = static_cast<int>(std::min<std::size_t>(pools->size(), kMostPools));
@@ -122,6 +124,10 @@ void Observer::note(const ipc::Health& health) {
   int i = 0;
   while (i < board_->processes && std::strcmp(board_->health[i].process, health.process) != 0) ++i;
   EXPECT(i < kMostProcesses);
+  const std::string said = std::string(health.process) + ": " + health.reason + "\n";
+  if (std::strcmp(board_->health[i].reason, health.reason) != 0 &&
+      board_->said_size + said.size() < kMostSaid)
+    board_->said_size += said.copy(board_->said + board_->said_size, said.size());
   board_->health[i] = health;
   board_->processes = std::max(board_->processes, i + 1);
 }
@@ -148,6 +154,14 @@ std::optional<ipc::Health> Observer::health(const std::string& process) const {
       if (process == board.health[i].process) return board.health[i];
     return std::nullopt;
   });
+}
+
+bool Observer::has_said(const std::string& process, const std::string& words) const {
+  std::istringstream said(read([](const Board& board) { return std::string(board.said, board.said_size); }));
+  for (std::string line; std::getline(said, line);)
+    if (line.rfind(process + ": ", 0) == 0 && line.find(words, process.size()) != std::string::npos)
+      return true;
+  return false;
 }
 
 std::uint64_t Observer::counter(const std::string& process, const std::string& name) const {

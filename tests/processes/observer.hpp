@@ -36,6 +36,8 @@ class Observer {
   [[nodiscard]] std::string drops(const std::string& process) const;
   /// A process's last Health; nothing if there was none yet.
   [[nodiscard]] std::optional<ipc::Health> health(const std::string& process) const;
+  /// Whether these words were in the reason of any Health of the process so far.
+  [[nodiscard]] bool has_said(const std::string& process, const std::string& words) const;
   /// What computes, "NAME: DETAILS", as the process's last Health has it; empty if there was none yet.
   [[nodiscard]] std::string backend(const std::string& process) const;
   /// Waits for a process's Health of this state.
@@ -48,12 +50,15 @@ class Observer {
  private:
   static constexpr int kMostProcesses = 8;
   static constexpr int kMostPools = 8;
+  static constexpr std::size_t kMostSaid = 1 << 18;
   struct Board {
     pthread_mutex_t mutex;
     std::uint64_t layers;
     ipc::Layers newest;
     int processes;
     ipc::Health health[kMostProcesses];
+    std::size_t said_size;
+    char said[kMostSaid];  // "PROCESS: REASON" lines, where a reason is a new one
     std::uint64_t pool_reports;
     int pools;
     std::uint32_t used_chunks[kMostPools];

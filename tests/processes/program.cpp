@@ -61,9 +61,9 @@ int Program::wait(std::chrono::milliseconds patience) {
   return kHung;
 }
 
-int Program::stop(int signal, std::chrono::milliseconds patience) {
+int Program::stop(int signal) {
   send(signal);
-  return wait(patience);
+  return wait();
 }
 
 void Program::send(int signal) const {

@@ -22,8 +22,8 @@ class Program {
   Program& operator=(const Program&) = delete;
 
   /// The exit code, 128 + the signal that ended it, or kHung (and then it is killed).
-  int wait(std::chrono::milliseconds patience = std::chrono::seconds(60));
-  int stop(int signal = SIGTERM, std::chrono::milliseconds patience = std::chrono::seconds(10));
+  int wait(std::chrono::milliseconds patience = std::chrono::seconds(240));
+  int stop(int signal = SIGTERM);  ///< And wait().
   void send(int signal) const;
   int kill();
   /// As kill(), but while its main thread sleeps: in iceoryx 2.0 a process that dies within publish() leaves
@@ -32,7 +32,7 @@ class Program {
 
   [[nodiscard]] bool runs();
   [[nodiscard]] bool says(const std::string& words,
-                          std::chrono::milliseconds patience = std::chrono::seconds(20)) const;
+                          std::chrono::milliseconds patience = std::chrono::seconds(60)) const;
   [[nodiscard]] std::string output() const;
   [[nodiscard]] pid_t pid() const { return pid_; }
 

@@ -188,6 +188,9 @@ TEST_CASE("a device that fails in flight ends ingest, and no map comes of it") {
   REQUIRE(mapped.size() == 2);
   REQUIRE(mapped[0] > 0);
   CHECK(odometry->stop() == 0);
+  CHECK(eventually([&] {
+    return observer.counter("gvom-fusion", "maps_fused") == static_cast<std::uint64_t>(mapped[0]);
+  }));
   CHECK(graph.fusion().stop() == 0);
   CHECK(numbers_before(graph.fusion().output(), "maps fused") == std::vector<int>{mapped[0]});
   CHECK(graph.roudi().stop() == 0);

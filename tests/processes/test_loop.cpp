@@ -2,6 +2,9 @@
 #include <catch2/catch.hpp>
 
 #include <cstring>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "ipc/layers.hpp"
 #include "tests/ipc/processes.hpp"
@@ -45,30 +48,46 @@ Content content_of(const LayersSample& sample) {
   return content;
 }
 
-/// Takes layers until the third round begins; ends well if the first two began and ended as they must.
-void watch_two_rounds(const Step& begin_reached) {
+constexpr std::int64_t kPeriod_ns = 100'000'000;
+constexpr int kMapsInRound = 10;
+constexpr std::uint32_t kMapsInWindow = 4;
+
+/// Of a round that has come to its end.
+struct Round {
+  Content first, last;
+
+  /// It began with an empty window, and fusion and this reader had the processor at its begin and at its end.
+  [[nodiscard]] bool is_whole() const {
+    const std::int64_t begin_ns = first.stamp_ns - (first.maps_in_window - 1) * kPeriod_ns;
+    return first.maps_in_window < kMapsInWindow && last.maps_in_window == kMapsInWindow &&
+           last.stamp_ns == begin_ns + (kMapsInRound - 1) * kPeriod_ns;
+  }
+};
+
+/// Ends well if two of the first twenty rounds are whole and end in the same layers.
+void watch_rounds(Step& begin_reached) {
   auto runtime = Runtime::connect("watcher", kPatience).value();
   auto layers = LayersSubscriber::open(runtime).value();
-  const_cast<Step&>(begin_reached).reach(1);
-  std::vector<std::uint64_t> epochs;
-  std::vector<Content> newest;
-  while (epochs.size() < 3) {
+  begin_reached.reach(1);
+  std::optional<Round> round;
+  std::uint64_t epoch = 0;
+  std::vector<Content> ends;
+  for (int rounds = 0; ends.size() < 2;) {
     const auto sample = take_within(layers);
     EXPECT(sample);
-    const std::uint64_t epoch = sample->header().header.epoch;
     Content content = content_of(*sample);
-    if (epochs.empty() || epoch != epochs.back()) {
-      EXPECT(epochs.empty() || epoch > epochs.back());
-      EXPECT(content.maps_in_window < 4);  // one, or those that came while fusion had no processor
-      epochs.push_back(epoch);
-      newest.emplace_back();
+    if (round && sample->header().header.epoch == epoch) {
+      round->last = std::move(content);
+      continue;
     }
-    newest.back() = std::move(content);
+    EXPECT(!round || sample->header().header.epoch > epoch);
+    EXPECT(rounds++ < 20);
+    if (round && round->is_whole()) ends.push_back(std::move(round->last));
+    epoch = sample->header().header.epoch;
+    round = Round{content, content};
   }
-  EXPECT(newest[0].maps_in_window == 4);
-  EXPECT(newest[0].stamp_ns == newest[1].stamp_ns);
-  EXPECT(newest[0] == newest[1]);
-  EXPECT(!(newest[0] == newest[2]));
+  EXPECT(ends[0] == ends[1]);
+  EXPECT(!(ends[0] == round->first));
 }
 
 }  // namespace
@@ -78,7 +97,7 @@ TEST_CASE("each round of a looped replay begins with an empty window and ends in
   simulated(folder.path(), 1);
   Graph graph(front_only(folder.path()));
   Step up;
-  Child watcher([&] { watch_two_rounds(up); });
+  Child watcher([&] { watch_rounds(up); });
   REQUIRE(up.wait_for(1));
   graph.start_readers();
   const auto odometry = graph.replay({"--rate", "1", "--loop"});

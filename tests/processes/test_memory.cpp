@@ -38,7 +38,7 @@ TEST_CASE("the memory of ingest and fusion does not grow in a thousand sweeps") 
   graph.start_readers();
   const auto odometry = graph.replay({"--rate", "max", "--loop"});
   const auto reach = [&](std::uint64_t sweeps) {
-    return eventually([&] { return observer.counter("gvom-ingest-front", "sweeps_mapped") >= sweeps; }, 60s);
+    return eventually([&] { return observer.counter("gvom-ingest-front", "sweeps_mapped") >= sweeps; }, 240s);
   };
   REQUIRE(reach(kWarmUp));
   const long ingest_kb = anonymous_kb(graph.ingest("front").pid());

@@ -80,13 +80,13 @@ TEST_CASE("the example planner pays for remembered ground, and drives on none be
   Vehicle vehicle = simulated(folder.path(), 4);
   // The ring that no lidar sees is wide, and what is assumed of it small: ground just ahead is remembered.
   vehicle.sets.insert(vehicle.sets.end(), {"lidars.front.min_range_m=6", "lidars.rear.min_range_m=6",
-                                           "vehicle.radius_m=1", "ipc.max_planners=4"});
+                                           "vehicle.radius_m=1", kRoomForLayersLog});
   Graph graph(vehicle);
   const LayersLog log;
   REQUIRE(log.is_up());
   graph.start_readers();
   Program planner("gvom-example-planner", {}, folder.path());
-  const auto odometry = graph.replay({"--rate", "1"});
+  const auto odometry = graph.replay({"--rate", "0.5"});
   REQUIRE(eventually([&] { return costs(lines_of(planner.output()), false, true).size() >= 10; }));
   graph.lose_ingest("front");
   CHECK(odometry->wait() == 0);

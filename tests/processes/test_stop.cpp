@@ -1,10 +1,12 @@
 // SIGINT and SIGTERM end each process well, whatever it does at that moment.
 #include <catch2/catch.hpp>
 
-#include <fstream>
+#include <algorithm>
 #include <string>
+#include <vector>
 
 #include "tests/ipc/processes.hpp"
+#include "tests/processes/observer.hpp"
 #include "tests/processes/recordings.hpp"
 #include "tests/tools/temporary_folder.hpp"
 
@@ -17,18 +19,27 @@ namespace {
 constexpr int kSignals[] = {SIGINT, SIGTERM};
 
 void check_stops(Program& program, int signal) {
-  const int code = program.stop(signal, 20s);  // a picture takes its time on a busy machine
+  const int code = program.stop(signal);
   INFO("signal " << signal << "\n" << program.output());
   CHECK(code == 0);
 }
 
-/// Whether its main has come so far that SIGTERM ends it no more by itself.
+/// Waits until its main has come so far that it ends well when asked to.
 bool takes_signals(const Program& program) {
-  std::ifstream status("/proc/" + std::to_string(program.pid()) + "/status");
-  for (std::string line; std::getline(status, line);)
-    if (line.rfind("SigBlk:", 0) == 0)
-      return (std::stoull(line.substr(7), nullptr, 16) >> (SIGTERM - 1) & 1) != 0;
-  return false;
+  return eventually([&] { return gvom::ipc::test::takes_signals(program.pid()); });
+}
+
+/// Waits until it waits for something.
+bool waits(const Program& program) {
+  return takes_signals(program) && eventually([&] { return gvom::ipc::test::is_asleep(program.pid()); });
+}
+
+/// Waits until all have joined with all that they publish.
+bool have_joined(const std::string& folder, const std::vector<std::string>& processes) {
+  const Observer observer(folder);
+  return std::all_of(processes.begin(), processes.end(), [&](const std::string& process) {
+    return eventually([&] { return observer.health(process).has_value(); });
+  });
 }
 
 std::unique_ptr<Program> endless_replay(const Graph& graph, const char* rate) {
@@ -50,8 +61,8 @@ TEST_CASE("each stops well while it waits for the broker") {
     Program fusion("gvom-fusion", vehicle.arguments(), folder.path());
     Program ingest("gvom-ingest", vehicle.arguments({"--lidar", "front"}), folder.path());
     Program odometry("gvom-odometry", vehicle.arguments(), folder.path());
-    std::this_thread::sleep_for(300ms);
     for (Program* const program : {&fusion, &ingest, &odometry}) {
+      CHECK(waits(*program));
       CHECK(program->runs());
       check_stops(*program, signal);
     }
@@ -66,7 +77,7 @@ TEST_CASE("each stops well while nothing comes, the broker last") {
     graph.start_fusion();
     const auto odometry = graph.replay({"--rate", "max"});  // waits for the ingests
     CHECK(graph.fusion().says("fusing 2 lidars"));
-    std::this_thread::sleep_for(300ms);
+    CHECK(waits(*odometry));
     check_stops(*odometry, signal);
     graph.start_ingest("front");
     graph.start_ingest("rear");
@@ -120,7 +131,7 @@ TEST_CASE("gvom-snapshot and gvom-play stop well") {
     CHECK(snapshot->says("picture 1"));
     check_stops(*snapshot, signal);
     Program play("gvom-play", {"front.pcap", "--loop", "--port", "9"}, folder.path());
-    std::this_thread::sleep_for(300ms);
+    CHECK(takes_signals(play));
     check_stops(play, signal);
     check_stops(*odometry, signal);
     graph.stop(signal);
@@ -132,9 +143,10 @@ TEST_CASE("one signal ends who joins a broker that hangs") {
   Graph graph(simulated(folder.path(), 0.2));
   graph.roudi().send(SIGSTOP);  // who joins now waits for an answer
   const auto fusion = graph.start("gvom-fusion", {});
-  std::this_thread::sleep_for(300ms);
+  CHECK(waits(*fusion));
   CHECK(fusion->runs());
-  CHECK(fusion->stop(SIGTERM) == 0);  // iceoryx itself would wait for a minute
+  fusion->send(SIGTERM);
+  CHECK(fusion->wait(30s) == 0);  // iceoryx itself would wait for a minute
   graph.roudi().send(SIGCONT);
   graph.stop();
 }
@@ -149,14 +161,15 @@ TEST_CASE("who was asked to stop ends with 0, wherever in its start the broker's
     Graph graph(vehicle);
     const auto fusion = graph.start("gvom-fusion", {});
     const auto ingest = graph.start("gvom-ingest", {"--lidar", "front"});
-    REQUIRE(eventually([&] { return takes_signals(*fusion) && takes_signals(*ingest); }));
+    REQUIRE(takes_signals(*fusion));
+    REQUIRE(takes_signals(*ingest));
     std::this_thread::sleep_for(std::chrono::milliseconds(late_ms));
     fusion->send(SIGTERM);
     ingest->send(SIGTERM);
     graph.roudi().kill();
-    CHECK(fusion->wait(20s) == 0);
+    CHECK(fusion->wait() == 0);
     INFO(fusion->output());
-    CHECK(ingest->wait(20s) == 0);
+    CHECK(ingest->wait() == 0);
     INFO(ingest->output());
   }
 }
@@ -167,21 +180,18 @@ TEST_CASE("one signal ends who leaves a broker that hangs, or that ends at the s
   for (const bool hangs : {true, false}) {
     Graph graph(vehicle);
     graph.start_readers();
-    CHECK(graph.fusion().says("fusing 2 lidars"));
-    CHECK(graph.ingest("front").says("front from"));
-    CHECK(graph.ingest("rear").says("rear from"));
-    std::this_thread::sleep_for(
-        500ms);  // they have joined with all that they publish; who still does ends with 70
+    // Who still joins as the broker ends, ends with 70.
+    REQUIRE(have_joined(folder.path(), {"gvom-fusion", "gvom-ingest-front", "gvom-ingest-rear"}));
     graph.roudi().send(hangs ? SIGSTOP : SIGTERM);
     for (Program* const program : {&graph.fusion(), &graph.ingest("front"), &graph.ingest("rear")})
       program->send(SIGTERM);
     for (Program* const program : {&graph.fusion(), &graph.ingest("front"), &graph.ingest("rear")}) {
-      CHECK(program->wait(20s) == 0);
+      CHECK(program->wait() == 0);
       INFO(program->output());
       CHECK(program->output().size() < 4000);  // nobody repeats a complaint
     }
     graph.roudi().send(SIGCONT);
-    if (!hangs) CHECK(graph.roudi().wait(20s) == 0);  // a second signal would end it at once
+    if (!hangs) CHECK(graph.roudi().wait() == 0);  // a second signal would end it at once
     graph.stop();
   }
 }

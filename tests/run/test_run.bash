@@ -55,6 +55,10 @@ done
 
 echo "until it is interrupted"
 begin looped --loop
+until grep -qE '[0-9] layers' said; do  # gvom-summary listens
+  kill -0 "$pid" || failed "it ended before layers came"
+  sleep 0.05
+done
 kill -INT "$pid"
 wait "$pid" || failed "interrupted it ended with $?"
 grep -q '^process .*CPU' said || failed "it said nothing of what came of the run"

@@ -48,16 +48,19 @@ void fill(const FlatWorld& world, LayersWriter& writer) {
   }
 }
 
-/// Publishes the flat world with stamps of 1 s, 2 s, ... `count` s, then stays until it is killed.
-std::function<void()> publisher(std::int64_t count) {
-  return [count] {
+/// Publishes the flat world, as soon as somebody reads, with stamps of 1 s, 2 s, ... `count` s; then it stays
+/// until it is killed. `published` is how many so far.
+std::function<void()> publisher(std::int64_t count, Step& published) {
+  return [count, &published] {
     auto runtime = Runtime::connect("fusion", kPatience).value();
     auto out = LayersPublisher::open(runtime).value();
+    EXPECT(eventually([&] { return out.has_subscribers(); }));
     const FlatWorld world;
     for (std::int64_t i = 1; i <= count; ++i) {
       auto writer = out.loan(FlatWorld::kSize, 16).value();
       fill(world, writer);
       out.publish(std::move(writer), i * 1'000'000'000, 0);
+      published.reach(static_cast<int>(i));
       std::this_thread::sleep_for(20ms);
     }
     while (true) ::pause();
@@ -120,7 +123,8 @@ TEST_CASE("without layers it gives up after the timeout, with 75") {
 TEST_CASE("--once --npy writes the layers as they were published") {
   BrokerProcess broker(flat_world_spec());
   REQUIRE(broker.is_up());
-  Child fusion(publisher(1));
+  Step published;
+  Child fusion(publisher(1, published));
   const Snapshot snapshot;
   REQUIRE(Child(snapshot.with({"--once", "--npy"})).wait() == 0);
   CHECK(snapshot.has("montage.png"));
@@ -143,8 +147,9 @@ TEST_CASE("--final writes nothing until SIGTERM, then the newest layers") {
   REQUIRE(broker.is_up());
   const Snapshot snapshot;
   Child reader(snapshot.with({"--final", "--npy"}));
-  Child fusion(publisher(20));
-  std::this_thread::sleep_for(1500ms);
+  Step published;
+  Child fusion(publisher(20, published));
+  REQUIRE(published.wait_for(20));
   CHECK(!snapshot.has("montage.png"));
   reader.send(SIGTERM);
   REQUIRE(reader.wait() == 0);
@@ -156,9 +161,12 @@ TEST_CASE("--every writes numbered montages, and at SIGTERM what is newer than t
   BrokerProcess broker(flat_world_spec());
   REQUIRE(broker.is_up());
   const Snapshot snapshot;
-  Child fusion(publisher(1000));
+  Step published;
+  Child fusion(publisher(1'000'000, published));
   Child reader(snapshot.with({"--every", "0.2"}));
   CHECK(eventually([&] { return snapshot.has("000001-montage.png"); }));
+  const int before = published.now();
+  CHECK(published.wait_for(before + 2));
   reader.send(SIGTERM);
   CHECK(reader.wait() == 0);
   CHECK(snapshot.has("000002-montage.png"));
@@ -169,7 +177,7 @@ TEST_CASE("a stop before any layers came is 75") {
   REQUIRE(broker.is_up());
   const Snapshot snapshot;
   Child reader(snapshot.with({"--final"}));
-  std::this_thread::sleep_for(500ms);
+  REQUIRE(eventually([&] { return takes_signals(reader.pid()); }));
   reader.send(SIGTERM);
   CHECK(reader.wait() == 75);
 }
@@ -178,9 +186,10 @@ TEST_CASE("when the broker dies, what came is written and it ends with 75") {
   BrokerProcess broker(flat_world_spec());
   REQUIRE(broker.is_up());
   const Snapshot snapshot;
-  Child fusion(publisher(1));
+  Step published;
+  Child fusion(publisher(1, published));
   Child reader(snapshot.with({"--final"}));
-  std::this_thread::sleep_for(1000ms);
+  REQUIRE(published.wait_for(1));
   broker.kill();
   CHECK(reader.wait() == 75);
   CHECK(snapshot.has("montage.png"));
