@@ -84,13 +84,15 @@ inline bool is_asleep(pid_t pid) {
   return name_end != std::string::npos && stat.compare(name_end, 3, ") S") == 0;
 }
 
-/// Whether a process has come so far that SIGTERM and SIGINT end it no more by themselves.
+/// Waits until a process has come so far that SIGTERM and SIGINT end it no more by themselves.
 inline bool takes_signals(pid_t pid) {
-  std::ifstream status("/proc/" + std::to_string(pid) + "/status");
-  for (std::string line; std::getline(status, line);)
-    if (line.rfind("SigBlk:", 0) == 0)
-      return (std::stoull(line.substr(7), nullptr, 16) >> (SIGTERM - 1) & 1) != 0;
-  return false;
+  return eventually([pid] {
+    std::ifstream status("/proc/" + std::to_string(pid) + "/status");
+    for (std::string line; std::getline(status, line);)
+      if (line.rfind("SigBlk:", 0) == 0)
+        return (std::stoull(line.substr(7), nullptr, 16) >> (SIGTERM - 1) & 1) != 0;
+    return false;
+  });
 }
 
 class Child {

@@ -12,6 +12,12 @@ namespace gvom::test {
 
 using namespace std::chrono_literals;
 
+namespace {
+
+constexpr std::uint32_t kQueue = 64;  // so that what does not come was not published
+
+}  // namespace
+
 std::int64_t LoggedLayers::seen_ns(std::size_t column) const {
   return header.header.stamp_ns - std::llround(double{last_seen_s[column]} * 1e9);
 }
@@ -37,7 +43,7 @@ LayersLog::~LayersLog() {
 void LayersLog::write() {
   auto runtime = ipc::Runtime::connect("layers-log", 5s).value();
   ipc::Topic topic = ipc::layers_topic();
-  topic.queue = kLayersLogQueue;
+  topic.queue = kQueue;
   auto port = ipc::InPort::open(runtime, topic).value();
   auto waiter = ipc::Waiter::create(runtime);
   waiter.add(port);

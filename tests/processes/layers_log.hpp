@@ -27,8 +27,7 @@ struct LoggedLayers {
   [[nodiscard]] const ipc::LidarStatus& lidar(const char* name) const;
 };
 
-/// Its queue holds the layers of seconds: what is not in it was not published.
-inline constexpr std::uint32_t kLayersLogQueue = 64;
+/// To set where a LayersLog reads: its queue holds the layers of seconds.
 inline constexpr const char* kRoomForLayersLog = "ipc.max_planners=32";
 
 class LayersLog {

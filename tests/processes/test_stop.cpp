@@ -12,6 +12,7 @@
 
 using namespace gvom::test;
 using gvom::ipc::test::eventually;
+using gvom::ipc::test::takes_signals;
 using namespace std::chrono_literals;
 
 namespace {
@@ -24,14 +25,10 @@ void check_stops(Program& program, int signal) {
   CHECK(code == 0);
 }
 
-/// Waits until its main has come so far that it ends well when asked to.
-bool takes_signals(const Program& program) {
-  return eventually([&] { return gvom::ipc::test::takes_signals(program.pid()); });
-}
-
 /// Waits until it waits for something.
 bool waits(const Program& program) {
-  return takes_signals(program) && eventually([&] { return gvom::ipc::test::is_asleep(program.pid()); });
+  return takes_signals(program.pid()) &&
+         eventually([&] { return gvom::ipc::test::is_asleep(program.pid()); });
 }
 
 /// Waits until all have joined with all that they publish.
@@ -131,7 +128,7 @@ TEST_CASE("gvom-snapshot and gvom-play stop well") {
     CHECK(snapshot->says("picture 1"));
     check_stops(*snapshot, signal);
     Program play("gvom-play", {"front.pcap", "--loop", "--port", "9"}, folder.path());
-    CHECK(takes_signals(play));
+    CHECK(takes_signals(play.pid()));
     check_stops(play, signal);
     check_stops(*odometry, signal);
     graph.stop(signal);
@@ -161,8 +158,8 @@ TEST_CASE("who was asked to stop ends with 0, wherever in its start the broker's
     Graph graph(vehicle);
     const auto fusion = graph.start("gvom-fusion", {});
     const auto ingest = graph.start("gvom-ingest", {"--lidar", "front"});
-    REQUIRE(takes_signals(*fusion));
-    REQUIRE(takes_signals(*ingest));
+    REQUIRE(takes_signals(fusion->pid()));
+    REQUIRE(takes_signals(ingest->pid()));
     std::this_thread::sleep_for(std::chrono::milliseconds(late_ms));
     fusion->send(SIGTERM);
     ingest->send(SIGTERM);

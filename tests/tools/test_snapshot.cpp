@@ -177,7 +177,7 @@ TEST_CASE("a stop before any layers came is 75") {
   REQUIRE(broker.is_up());
   const Snapshot snapshot;
   Child reader(snapshot.with({"--final"}));
-  REQUIRE(eventually([&] { return takes_signals(reader.pid()); }));
+  REQUIRE(takes_signals(reader.pid()));
   reader.send(SIGTERM);
   CHECK(reader.wait() == 75);
 }
